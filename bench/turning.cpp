@@ -2,18 +2,18 @@
 //
 // usage: bench_turning DATA [--json=OUT.json] [--motions=N] [--runs=N]
 //
-// Motions of a robot in a room, which turn (meshes/rob.obj and env.obj of DATA), on one core: by abut in one call, and by FCL's
-// continuousCollide, one call each, in one run. N motions (1,000) of three kinds, short: edges of a road map, 300 long and half a radian
-// at most, that begin free; long: to any pose, from one that is free; anywhere: from any pose to any other, of which half begin in
-// contact. The tolerance is 0.1; the room is 6,000 wide. Rows:
+// Motions of a robot in a room, which turn (meshes/rob.obj and env.obj of DATA), on one core: by abut in one call, and by
+// FCL's continuousCollide, one call each, in one run. N motions (1,000) of three kinds, short: edges of a road map, 300 long
+// and half a radian at most, that begin free; long: to any pose, from one that is free; anywhere: from any pose to any
+// other, of which half begin in contact. The tolerance is 0.1; the room is 6,000 wide. Rows:
 //
 //   KIND/abut           ms of all, the median of N runs (5), and how many meet
 //   KIND/abut_any       the same of the yes or no alone
 //   KIND/fcl_naive      FCL's default, which looks at ten poses; missed: meetings that abut proves and FCL says are none
 //   KIND/fcl_advance    FCL's conservative advancement
 //
-// missed is counted against abut's answer where the robot and the room intersect at one of 2,000 poses on the way (certain): so are
-// abut's own.
+// missed is counted against abut's answer where the robot and the room intersect at one of 2,000 poses on the way (certain):
+// so are abut's own.
 
 #include <algorithm>
 #include <chrono>
@@ -104,7 +104,8 @@ double median_ms(int runs, const F& f) {
 
 constexpr double tolerance = 0.1;
 
-void compare(bench::results& out, const std::string& kind, const surface& robot, const surface& room, bool is_short, bool begins_free, std::size_t n, int runs) {
+void compare(bench::results& out, const std::string& kind, const surface& robot, const surface& room, bool is_short,
+             bool begins_free, std::size_t n, int runs) {
     const abut::serial on;
     const abut::bvh_options with{.builder = abut::bvh_builder::sah};
     const auto of_robot = abut::make_bvh(on, mesh(robot.vertices, robot.faces), with),
@@ -127,7 +128,8 @@ void compare(bench::results& out, const std::string& kind, const surface& robot,
         }
         const auto from = pose_of(q, at), end = pose_of(r, to);
         if (begins_free && abut::any(on, abut::posed(of_robot, from), of_room)) continue;
-        list.push_back({abut::moving(abut::posed(of_robot, from), abut::posed(of_robot, end)), abut::posed(of_room, abut::rigid<float>{})});
+        list.push_back({abut::moving(abut::posed(of_robot, from), abut::posed(of_robot, end)),
+                        abut::posed(of_room, abut::rigid<float>{})});
     }
     const auto found = abut::to_host(abut::first_meetings(on, list, {tolerance}));
     // What surely meets: at one of many poses on the way they intersect.
@@ -143,17 +145,20 @@ void compare(bench::results& out, const std::string& kind, const surface& robot,
                 const double numbers[3] = {frame.rows[j].x, frame.rows[j].y, frame.rows[j].z};
                 for (int c = 0; c < 3; ++c) pose.rotation[3 * j + c] = static_cast<float>(numbers[c]);
             }
-            pose.translation = {static_cast<float>(frame.at.x), static_cast<float>(frame.at.y), static_cast<float>(frame.at.z)};
+            pose.translation = {static_cast<float>(frame.at.x), static_cast<float>(frame.at.y),
+                                static_cast<float>(frame.at.z)};
             if (abut::any(on, abut::posed(of_robot, pose), of_room)) surely[i] = 1;
         }
         met += is_met, certain += surely[i], missed += surely[i] && !is_met;
     }
     const double ms = median_ms(runs, [&] { (void)abut::first_meetings(on, list, {tolerance}); });
     const auto number = [](auto x) { return static_cast<double>(x); };
-    out.add(bench::joined({kind, "abut"}), {{"ms", ms}, {"met", number(met)}, {"certain", number(certain)}, {"missed", number(missed)}});
+    out.add(bench::joined({kind, "abut"}),
+            {{"ms", ms}, {"met", number(met)}, {"certain", number(certain)}, {"missed", number(missed)}});
     const double any_ms = median_ms(runs, [&] { (void)abut::any_each(on, list, {tolerance}); });
     out.add(bench::joined({kind, "abut_any"}), {{"ms", any_ms}});
-    for (const auto& [name, solver] : {std::pair{"fcl_naive", fcl::CCDC_NAIVE}, std::pair{"fcl_advance", fcl::CCDC_CONSERVATIVE_ADVANCEMENT}}) {
+    for (const auto& [name, solver] :
+         {std::pair{"fcl_naive", fcl::CCDC_NAIVE}, std::pair{"fcl_advance", fcl::CCDC_CONSERVATIVE_ADVANCEMENT}}) {
         std::vector<double> toc(n);
         const double fcl_ms = median_ms(solver == fcl::CCDC_NAIVE ? runs : 1, [&, kind_of = solver] {
             for (std::size_t i = 0; i < n; ++i) {
@@ -162,8 +167,8 @@ void compare(bench::results& out, const std::string& kind, const surface& robot,
                 request.ccd_motion_type = fcl::CCDM_LINEAR;
                 fcl::ContinuousCollisionResultd result;
                 const auto rest = fcl::Transform3d::Identity();
-                fcl::continuousCollide(fcl_robot.get(), transform_of(list[i].a.from), transform_of(list[i].a.to), fcl_room.get(), rest, rest,
-                                       request, result);
+                fcl::continuousCollide(fcl_robot.get(), transform_of(list[i].a.from), transform_of(list[i].a.to),
+                                       fcl_room.get(), rest, rest, request, result);
                 toc[i] = result.is_collide ? result.time_of_contact : 2;
             }
         });
@@ -173,7 +178,10 @@ void compare(bench::results& out, const std::string& kind, const surface& robot,
             fcl_missed += surely[i] && toc[i] > 1;
             late += surely[i] && toc[i] <= 1 && found[i].a != abut::no_id && toc[i] > found[i].time + 0.01;
         }
-        out.add(bench::joined({kind, name}), {{"ms", fcl_ms}, {"met", number(says)}, {"missed", number(fcl_missed)}, {"late", number(late)},
+        out.add(bench::joined({kind, name}), {{"ms", fcl_ms},
+                                              {"met", number(says)},
+                                              {"missed", number(fcl_missed)},
+                                              {"late", number(late)},
                                               {"over", fcl_ms / ms}});
     }
 }
@@ -182,10 +190,12 @@ void compare(bench::results& out, const std::string& kind, const surface& robot,
 
 int main(int argc, char** argv) {
     try {
-        const std::string json = bench::take_argument(argc, argv, "--json"), motions = bench::take_argument(argc, argv, "--motions", "1000"),
+        const std::string json = bench::take_argument(argc, argv, "--json"),
+                          motions = bench::take_argument(argc, argv, "--motions", "1000"),
                           runs = bench::take_argument(argc, argv, "--runs", "5");
         const std::string data = argc > 1 ? argv[1] : ".";
-        const auto robot = bench::read_surface<surface>(data + "/meshes/rob.obj"), room = bench::read_surface<surface>(data + "/meshes/env.obj");
+        const auto robot = bench::read_surface<surface>(data + "/meshes/rob.obj"),
+                   room = bench::read_surface<surface>(data + "/meshes/env.obj");
         bench::results out("bench_turning");
         compare(out, "short", robot, room, true, true, std::stoul(motions), std::stoi(runs));
         compare(out, "long", robot, room, false, true, std::stoul(motions), std::stoi(runs));

@@ -33,7 +33,8 @@ TEST_CASE("first_meeting: sets, indices and single shapes, in motion and at rest
     check(first_meeting(on, moving(posed(balls, start), posed(balls, end)), make_bvh(on, wall), exact));
     const auto tree = make_bvh(on, balls);
     check(first_meeting(on, moving(posed(tree, start), posed(tree, end)), posed(wall, start), exact));
-    const hulls<float> cube({{{-1, -1, -1}, {1, -1, -1}, {-1, 1, -1}, {1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {-1, 1, 1}, {1, 1, 1}}});
+    const hulls<float> cube(
+        {{{-1, -1, -1}, {1, -1, -1}, {-1, 1, -1}, {1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {-1, 1, 1}, {1, 1, 1}}});
     check(first_meeting(on, moving(posed(cube, start), posed(cube, end)), wall, exact));
     CHECK_FALSE(first_meeting(on, moving(posed(cube, start), posed(cube, start)), wall, exact).has_value());
     CHECK_FALSE(first_meeting(on, triangle_soup<float>(), wall, exact).has_value());
@@ -47,8 +48,10 @@ TEST_CASE("first_meeting: sets, indices and single shapes, in motion and at rest
     CHECK((spun->time <= touch + 1e-12 && spun->time > touch - 1e-8));
     // Both in motion: half of the way each.
     const rigid<float> back{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {-2, 0, 0}}, ahead{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {2, 0, 0}};
-    check(first_meeting(on, moving(posed(balls, start), posed(balls, ahead)), moving(posed(wall, start), posed(wall, back)), exact));
-    CHECK(first_meeting(on, moving(posed(cube, start), posed(cube, quarter), {.centre = {0, 5, 0}}), near_wall, exact).has_value());
+    check(first_meeting(on, moving(posed(balls, start), posed(balls, ahead)), moving(posed(wall, start), posed(wall, back)),
+                        exact));
+    CHECK(first_meeting(on, moving(posed(cube, start), posed(cube, quarter), {.centre = {0, 5, 0}}), near_wall, exact)
+              .has_value());
 }
 
 TEST_CASE("bodies that turn: what is refused") {
@@ -65,19 +68,28 @@ TEST_CASE("bodies that turn: what is refused") {
         return std::string("nothing");
     };
     using entries = std::vector<moving_pair<std::remove_const_t<decltype(a)>>>;
-    CHECK(says([&] { (void)moving(posed(a, start), posed(b, start)); }) == "abut::moving: another object at t = 1 than at t = 0");
-    const entries rest{{posed(a, start), posed(b, start)}}, turned{rest[0], {moving(posed(a, start), posed(a, half)), posed(b, start)}};
+    CHECK(says([&] { (void)moving(posed(a, start), posed(b, start)); }) ==
+          "abut::moving: another object at t = 1 than at t = 0");
+    const entries rest{{posed(a, start), posed(b, start)}},
+        turned{rest[0], {moving(posed(a, start), posed(a, half)), posed(b, start)}};
     CHECK(says([&] { (void)first_meetings(on, turned, {1e-3}); }) ==
-          "abut::first_meetings: entry 1 of the list: the first body: a half turn, which goes round either way; an axis says which: "
+          "abut::first_meetings: entry 1 of the list: the first body: a half turn, which goes round either way; an axis "
+          "says which: "
           "turning{.axis = ...}");
-    CHECK(says([&] { (void)first_meetings(on, rest, {}); }) == "abut::first_meetings: the tolerance is 0; expected a length above 0");
+    CHECK(says([&] { (void)first_meetings(on, rest, {}); }) ==
+          "abut::first_meetings: the tolerance is 0; expected a length above 0");
     CHECK(says([&] { (void)any_each(on, rest, {-1}); }) == "abut::any_each: the tolerance is -1; expected a length above 0");
-    CHECK(says([&] { (void)first_meetings(on, rest, {1e-15}); }).find("entry 0 of the list: the tolerance is 1e-15; doubles tell ") !=
-          std::string::npos);
+    CHECK(says([&] {
+              (void)first_meetings(on, rest, {1e-15});
+          }).find("entry 0 of the list: the tolerance is 1e-15; doubles tell ") != std::string::npos);
     CHECK(says([&] { (void)first_meeting(on, moving(posed(a, start), posed(a, skew)), b, {1e-3}); }) ==
-          "abut::first_meeting: the first body: at t = 1: rotation row 0: its squared length differs from 1 by more than 2^-10 (3)");
-    CHECK(says([&] { (void)first_meeting(on, moving(posed(a, start), posed(a, half), {.axis = {1, 0, 0}}), b, {1e-3}); }) ==
-          "abut::first_meeting: the first body: the given axis is 0 of its length along that of the turn; expected more than 0.5");
+          "abut::first_meeting: the first body: at t = 1: rotation row 0: its squared length differs from 1 by more than "
+          "2^-10 (3)");
+    CHECK(says([&] {
+              (void)first_meeting(on, moving(posed(a, start), posed(a, half), {.axis = {1, 0, 0}}), b, {1e-3});
+          }) ==
+          "abut::first_meeting: the first body: the given axis is 0 of its length along that of the turn; expected more "
+          "than 0.5");
     // Either way round, with an axis.
     CHECK(first_meeting(on, moving(posed(a, start), posed(a, half), {.axis = {0, 0, -3}}), b, {1e-3})->time == 0);
     CHECK(first_meetings(on, entries{}, {1e-3}).size() == 0);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What meetings of bodies that turn promise on every policy: the first pair of shapes by time, as it is computed of one pair, and of
-// equal times the least ids; with any index. The truth is a plain loop; that one pair is right is tests/narrow's matter.
+// What meetings of bodies that turn promise on every policy: the first pair of shapes by time, as it is computed of one
+// pair, and of equal times the least ids; with any index. The truth is a plain loop; that one pair is right is
+// tests/narrow's matter.
 
 #include <cmath>
 #include <cstdint>
@@ -51,11 +52,14 @@ std::vector<moving_pair<IndexA, IndexB>> drawn_motions(const IndexA& a, const In
             const double half = d.uniform(0.2, 1.2);
             construction::set_rotation(turned, std::cos(half), 0, 0, -std::sin(half));
             turned.translation = to.translation;
-            list.push_back({moving(posed(a, rigid<T>{{1, 0, 0, 0, 1, 0, 0, 0, 1}, from.translation}), posed(a, turned), about), posed(b, at)});
+            list.push_back(
+                {moving(posed(a, rigid<T>{{1, 0, 0, 0, 1, 0, 0, 0, 1}, from.translation}), posed(a, turned), about),
+                 posed(b, at)});
             continue;
         }
         about.centre = point_that_turns<T>(d, 1);
-        const posed_motion<IndexB> other = i % 2 == 0 ? posed_motion<IndexB>(posed(b, at)) : moving(posed(b, at), posed(b, pose_that_turns<T>(d, 3)));
+        const posed_motion<IndexB> other =
+            i % 2 == 0 ? posed_motion<IndexB>(posed(b, at)) : moving(posed(b, at), posed(b, pose_that_turns<T>(d, 3)));
         list.push_back({moving(posed(a, from), posed(a, to), about), other});
     }
     return list;
@@ -63,10 +67,13 @@ std::vector<moving_pair<IndexA, IndexB>> drawn_motions(const IndexA& a, const In
 
 /// By definition.
 template <class IndexA, class IndexB, class ShapesA, class ShapesB>
-std::vector<meeting> meetings_by_definition(const std::vector<moving_pair<IndexA, IndexB>>& list, const ShapesA& a, const ShapesB& b, double tolerance) {
+std::vector<meeting> meetings_by_definition(const std::vector<moving_pair<IndexA, IndexB>>& list, const ShapesA& a,
+                                            const ShapesB& b, double tolerance) {
     std::vector<meeting> all;
     for (const auto& one : list) {
-        const auto motion = [](const auto& body) { return detail::make_rigid_motion(body.from, body.to, body.about, "test"); };
+        const auto motion = [](const auto& body) {
+            return detail::make_rigid_motion(body.from, body.to, body.about, "test");
+        };
         const detail::turning_pair both{motion(one.a), motion(one.b)};
         meeting first{std::numeric_limits<double>::infinity(), no_id, no_id, std::numeric_limits<double>::infinity()};
         for (std::uint32_t i = 0; i < a.size(); ++i) {
@@ -81,7 +88,8 @@ std::vector<meeting> meetings_by_definition(const std::vector<moving_pair<IndexA
 }
 
 template <class Policy, class IndexA, class IndexB, class T = typename IndexA::scalar_type>
-void check_motions_of(const Policy& on, const IndexA& a, const IndexB& b, const std::vector<meeting>& expected, double tolerance) {
+void check_motions_of(const Policy& on, const IndexA& a, const IndexB& b, const std::vector<meeting>& expected,
+                      double tolerance) {
     const auto list = drawn_motions<T>(a, b, expected.size());
     const auto found = to_host(first_meetings(on, list, {tolerance}));
     REQUIRE(found.size() == expected.size());
@@ -101,7 +109,8 @@ template <bool All = false, class Policy, class SetA, class SetB>
 void check_turning_sets(const Policy& on, const SetA& a, const SetB& b, std::size_t n, double tolerance) {
     using T = typename SetA::scalar_type;
     const serial here;
-    const auto expected = meetings_by_definition(drawn_motions<T>(make_bvh(here, a), make_bvh(here, b), n), a.view(), b.view(), tolerance);
+    const auto expected =
+        meetings_by_definition(drawn_motions<T>(make_bvh(here, a), make_bvh(here, b), n), a.view(), b.view(), tolerance);
     std::size_t met = 0, at_start = 0;
     for (const meeting& m : expected) met += m.a != no_id, at_start += m.time == 0;
     CAPTURE(n, met, at_start);
@@ -124,7 +133,8 @@ std::vector<triangle<T>> triangles_that_turn(std::size_t n, double thin) {
     std::vector<triangle<T>> all;
     for (std::size_t i = 0; i < n; ++i) {
         draws d(sample_seed, 78, i);
-        const vec3<T> at = point_that_turns<T>(d, 1.5), p = point_that_turns<T>(d, 0.6), q = static_cast<T>(thin) * point_that_turns<T>(d, 0.6);
+        const vec3<T> at = point_that_turns<T>(d, 1.5), p = point_that_turns<T>(d, 0.6),
+                      q = static_cast<T>(thin) * point_that_turns<T>(d, 0.6);
         all.push_back({at, at + p, at + q});
     }
     return all;
@@ -132,7 +142,8 @@ std::vector<triangle<T>> triangles_that_turn(std::size_t n, double thin) {
 
 template <class T, bool All = false, class Policy>
 void check_turning_triangles(const Policy& on, std::size_t n) {
-    check_turning_sets<All>(on, triangle_soup<T>(triangles_that_turn<T>(30, 1)), triangle_soup<T>(triangles_that_turn<T>(25, 1e-4)), n, 1e-3);
+    check_turning_sets<All>(on, triangle_soup<T>(triangles_that_turn<T>(30, 1)),
+                            triangle_soup<T>(triangles_that_turn<T>(25, 1e-4)), n, 1e-3);
 }
 template <class T, class Policy>
 void check_turning(const Policy& on, std::size_t n) {

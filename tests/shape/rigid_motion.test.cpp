@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <abut/shape/rigid_motion.hpp>
 
-// The numbers of a motion: sine and cosine within their bound, both ends where they were given, and the axis and the angle from
-// which the motion was made, also near no turn, near a half one and beyond.
+// The numbers of a motion: sine and cosine within their bound, both ends where they were given, and the axis and the angle
+// from which the motion was made, also near no turn, near a half one and beyond.
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,9 @@ TEST_CASE("rigid_motion: sine and cosine") {
     double most = 0;
     for (std::uint64_t i = 0; i < 100000; ++i) {
         draws d(sample_seed, 81, i);
-        const double angle = i < 4 ? static_cast<double>(i) * 2.0943951023931953 : d.below(2) == 0 ? d.uniform(0, 6.2831853071795862) : d.power_of_ten(-12, 0);
+        const double angle = i < 4             ? static_cast<double>(i) * 2.0943951023931953
+                             : d.below(2) == 0 ? d.uniform(0, 6.2831853071795862)
+                                               : d.power_of_ten(-12, 0);
         const auto [s, v] = detail::sine_and_versine_of(angle);
         const auto exact = static_cast<long double>(angle);
         most = std::max(most, static_cast<double>(std::abs(s - std::sin(exact))));
@@ -33,11 +35,13 @@ TEST_CASE("rigid_motion: sine and cosine") {
 TEMPLATE_TEST_CASE("rigid_motion: both ends, axis and angle", "", float, double) {
     for (std::uint64_t i = 0; i < 2000; ++i) {
         draws d(sample_seed, 82, i);
-        const double angles[] = {d.uniform(0, 3.1), d.power_of_ten(-6, 0), 3.1415926 - d.power_of_ten(-4, -1), d.uniform(3.3, 6.2)};
-        const double angle = angles[i % 4], x = d.uniform(-1, 1), y = d.uniform(-1, 1), z = d.uniform(-1, 1), length = std::sqrt(x * x + y * y + z * z);
+        const double angles[] = {d.uniform(0, 3.1), d.power_of_ten(-6, 0), 3.1415926 - d.power_of_ten(-4, -1),
+                                 d.uniform(3.3, 6.2)};
+        const double angle = angles[i % 4], x = d.uniform(-1, 1), y = d.uniform(-1, 1), z = d.uniform(-1, 1),
+                     length = std::sqrt(x * x + y * y + z * z);
         rigid<TestType> from, to;
-        construction::set_rotation(to, std::cos(angle / 2), x / length * std::sin(angle / 2), y / length * std::sin(angle / 2),
-                                   z / length * std::sin(angle / 2));
+        construction::set_rotation(to, std::cos(angle / 2), x / length * std::sin(angle / 2),
+                                   y / length * std::sin(angle / 2), z / length * std::sin(angle / 2));
         from.translation = {1, 2, 3}, to.translation = {-4, 0, static_cast<TestType>(d.uniform(-9, 9))};
         turning<TestType> about{{7, 8, 9}, {0, 0, 0}};
         if (angle > 3.14159) about.axis = {static_cast<TestType>(x), static_cast<TestType>(y), static_cast<TestType>(z)};
@@ -68,8 +72,10 @@ TEMPLATE_TEST_CASE("rigid_motion: both ends, axis and angle", "", float, double)
 TEST_CASE("rigid_motion: a half turn") {
     const rigid<double> start, half{{-1, 0, 0, 0, -1, 0, 0, 0, 1}, {0, 0, 0}};
     CHECK_THROWS_AS(detail::make_rigid_motion(start, half, turning<double>{}, "test"), error);
-    const auto left = detail::make_rigid_motion(start, half, turning<double>{.axis = {0, 0, 1}}, "test").frame(0.5).turned({1, 0, 0});
-    const auto right = detail::make_rigid_motion(start, half, turning<double>{.axis = {0, 0, -1}}, "test").frame(0.5).turned({1, 0, 0});
+    const auto left =
+        detail::make_rigid_motion(start, half, turning<double>{.axis = {0, 0, 1}}, "test").frame(0.5).turned({1, 0, 0});
+    const auto right =
+        detail::make_rigid_motion(start, half, turning<double>{.axis = {0, 0, -1}}, "test").frame(0.5).turned({1, 0, 0});
     CHECK((std::abs(left.y - 1) < 1e-14 && std::abs(right.y + 1) < 1e-14));
     const auto still = detail::make_rigid_motion(half, half, turning<double>{}, "test");
     CHECK(still.is_still());

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// first_meeting, first_meetings, any_each: when bodies that turn meet, and which shapes. By definition the first is the pair of
-// shapes with the least time, as narrow/turning_time.hpp computes it of the two alone, and of equal ones the one with the least
-// ids. Trees only pass over what comes no nearer than the tolerance by then (traverse/turning_walk.hpp). Each entry of a list is
-// walked by one thread.
+// first_meeting, first_meetings, any_each: when bodies that turn meet, and which shapes. By definition the first is the pair
+// of shapes with the least time, as narrow/turning_time.hpp computes it of the two alone, and of equal ones the one with the
+// least ids. Trees only pass over what comes no nearer than the tolerance by then (traverse/turning_walk.hpp). Each entry of
+// a list is walked by one thread.
 
 #include <cstddef>
 #include <cstdint>
@@ -44,8 +44,8 @@ struct meeting_options {
     double tolerance = 0;
 };
 
-/// Two bodies, each in motion or at rest: `moving(posed(index, from), posed(index, to))`, or `posed(index, pose)`. Any number of
-/// entries of a list may share an index.
+/// Two bodies, each in motion or at rest: `moving(posed(index, from), posed(index, to))`, or `posed(index, pose)`. Any
+/// number of entries of a list may share an index.
 /// @ingroup motion
 template <class IndexA, class IndexB = IndexA>
 struct moving_pair {
@@ -92,7 +92,8 @@ struct first_of_entry {
         const turning_walk<decltype(a.tree), decltype(b.tree)> walk{a.tree, b.tree};
         walk(both, entries[i].bounds, tolerance, best, [&](std::uint32_t id_a, std::uint32_t id_b, double from) {
             if (!best.may_come_first(from, id_a, id_b)) return true;
-            return best.offer(turning_time_of(a.shapes[id_a], b.shapes[id_b], both, tolerance, from, best.until()), id_a, id_b);
+            return best.offer(turning_time_of(a.shapes[id_a], b.shapes[id_b], both, tolerance, from, best.until()), id_a,
+                              id_b);
         });
         return best.found;
     }
@@ -118,7 +119,8 @@ inline void check(const meeting_options& options, const std::string& function) {
 /// Throws where the tolerance is so small that rounding may hide it.
 inline void check_tolerance(double tolerance, const turning_bounds& both, const std::string& where) {
     // So that no square of a volume overflows, and none underflows that matters.
-    if (!(both.margin < 0x1p100)) throw error(where + ": coordinates are too large for a motion: 2^138 is the most that is taken");
+    if (!(both.margin < 0x1p100))
+        throw error(where + ": coordinates are too large for a motion: 2^138 is the most that is taken");
     if (tolerance >= 8 * both.margin && tolerance > 0x1p-120) return;
     throw error(where + ": the tolerance is " + shortest(tolerance) + "; doubles tell " +
                 shortest(greatest(8 * both.margin, 0x1p-120)) + " and more, 2^-37 of the sizes of bodies and ways");
@@ -131,8 +133,10 @@ consteval bool can_turn() {
         constexpr bool alike = std::same_as<typename IndexA::scalar_type, typename IndexB::scalar_type>;
         static_assert(alike, "abut: both bodies of a motion have to be of one scalar type");
         constexpr bool are = turnable<typename IndexA::shape_type> && turnable<typename IndexB::shape_type>;
-        static_assert(are, "abut: points, segments, triangles, spheres, capsules, boxes, oriented boxes and hulls can turn; cylinders, "
-                           "cones, planes and rays cannot");
+        static_assert(
+            are,
+            "abut: points, segments, triangles, spheres, capsules, boxes, oriented boxes and hulls can turn; cylinders, "
+            "cones, planes and rays cannot");
         return alike && are;
     } else {
         return false;
@@ -145,8 +149,12 @@ auto meetings_of(const Policy& on, const std::vector<moving_pair<IndexA, IndexB>
                  const std::string& function, bool is_list, const Make& make) {
     check(options, function);
     const std::size_t n = list.size();
-    const gathered_bodies<IndexA> of_a(n, [&](std::size_t i) { return posed_object<IndexA>{list[i].a.object, list[i].a.from}; });
-    const gathered_bodies<IndexB> of_b(n, [&](std::size_t i) { return posed_object<IndexB>{list[i].b.object, list[i].b.from}; });
+    const gathered_bodies<IndexA> of_a(n, [&](std::size_t i) {
+        return posed_object<IndexA>{list[i].a.object, list[i].a.from};
+    });
+    const gathered_bodies<IndexB> of_b(n, [&](std::size_t i) {
+        return posed_object<IndexB>{list[i].b.object, list[i].b.from};
+    });
     std::vector<turning_entry> entries;
     entries.reserve(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -165,8 +173,12 @@ auto meetings_of(const Policy& on, const std::vector<moving_pair<IndexA, IndexB>
     const auto objects_b = make_objects(on, of_b.indices, of_b.object_of, function.c_str());
     execution::buffer_of<Policy, turning_entry> there(on, n);
     upload(on, entries.data(), n, there.data());
-    const first_of_entry<Any, IndexA, IndexB> first{objects_a->objects.data(),   objects_b->objects.data(), objects_a->object_of.data(),
-                                                    objects_b->object_of.data(), there.data(),              options.tolerance};
+    const first_of_entry<Any, IndexA, IndexB> first{objects_a->objects.data(),
+                                                    objects_b->objects.data(),
+                                                    objects_a->object_of.data(),
+                                                    objects_b->object_of.data(),
+                                                    there.data(),
+                                                    options.tolerance};
     auto made = make(n, first);
     synchronize(on);
     return made;
@@ -194,23 +206,23 @@ auto motion_of_argument(const Policy& on, const X& x) {
 /// @addtogroup motion
 ///@{
 
-/// What the two bodies of each entry meet first: a `result` of `meeting`, one of each entry in their order, 32 bytes each. The
-/// time is never late: before it no shapes of the two touch. It is early by no more than the tolerance: at that time the two
-/// shapes that are named are no farther apart than that, so that shapes that pass each other as near may count as met. What touches
-/// at the start has the time 0. Where the time is infinite and the ids are `no_id` it is proven that nothing touches from 0
-/// to 1. Of pairs of shapes with equal times the least ids come first, a's before b's.
+/// What the two bodies of each entry meet first: a `result` of `meeting`, one of each entry in their order, 32 bytes each.
+/// The time is never late: before it no shapes of the two touch. It is early by no more than the tolerance: at that time the
+/// two shapes that are named are no farther apart than that, so that shapes that pass each other as near may count as met.
+/// What touches at the start has the time 0. Where the time is infinite and the ids are `no_id` it is proven that nothing
+/// touches from 0 to 1. Of pairs of shapes with equal times the least ids come first, a's before b's.
 ///
-/// A pair's time is a function of the two shapes, both motions and the tolerance alone, in operations that are each rounded: so
-/// the same bits on every policy, and with any tree over the same sets, but for tolerances that one tree refuses. docs/turning.md
-/// says what the way between two poses is.
+/// A pair's time is a function of the two shapes, both motions and the tolerance alone, in operations that are each rounded:
+/// so the same bits on every policy, and with any tree over the same sets, but for tolerances that one tree refuses.
+/// docs/turning.md says what the way between two poses is.
 ///
-/// Bodies are indices made by make_bvh of any layout, over points, segments, triangles, spheres, capsules, boxes, oriented boxes and
-/// hulls. Solids are met from outside: a shape that is inside of a hull or a ball touches it; one that is inside of a closed mesh
-/// does not.
+/// Bodies are indices made by make_bvh of any layout, over points, segments, triangles, spheres, capsules, boxes, oriented
+/// boxes and hulls. Solids are met from outside: a shape that is inside of a hull or a ball touches it; one that is inside
+/// of a closed mesh does not.
 ///
 /// @par Memory
-/// Indices lie in the policy's memory, the list in host memory. The call copies 550 bytes an entry to the policy's memory, and
-/// needs no more as it works but 8 KB a thread (14 KB with `wide` trees). One thread walks an entry.
+/// Indices lie in the policy's memory, the list in host memory. The call copies 550 bytes an entry to the policy's memory,
+/// and needs no more as it works but 8 KB a thread (14 KB with `wide` trees). One thread walks an entry.
 ///
 /// @par Errors
 /// - `error`, whose message names the entry: the tolerance is not above 0, or below what doubles tell of bodies and ways
@@ -225,49 +237,55 @@ auto motion_of_argument(const Policy& on, const X& x) {
 ///
 /// @par Example
 ///     std::vector<abut::moving_pair<index>> edges;
-///     for (const auto& [from, to] : roadmap) edges.push_back({moving(posed(robot, from), posed(robot, to)), posed(room, {})});
-///     for (const auto& m : abut::to_host(abut::first_meetings(on, edges, {.tolerance = 1e-3}))) use(m.time);
+///     for (const auto& [from, to] : roadmap) edges.push_back({moving(posed(robot, from), posed(robot, to)), posed(room,
+///     {})}); for (const auto& m : abut::to_host(abut::first_meetings(on, edges, {.tolerance = 1e-3}))) use(m.time);
 template <execution_policy Policy, class IndexA, class IndexB>
-[[nodiscard]] auto first_meetings(const Policy& on, const std::vector<moving_pair<IndexA, IndexB>>& list, const meeting_options& options) {
+[[nodiscard]] auto first_meetings(const Policy& on, const std::vector<moving_pair<IndexA, IndexB>>& list,
+                                  const meeting_options& options) {
     using out = execution::buffer_of<Policy, meeting>;
     if constexpr (detail::can_turn<Policy, IndexA, IndexB>()) {
-        auto found = detail::meetings_of<false>(on, list, options, "abut::first_meetings", true, [&](std::size_t n, const auto& first) {
-            out all(on, n);
-            for_each_task(on, n, detail::write_meetings<std::remove_cvref_t<decltype(first)>>{first, all.data()});
-            return all;
-        });
+        auto found = detail::meetings_of<false>(
+            on, list, options, "abut::first_meetings", true, [&](std::size_t n, const auto& first) {
+                out all(on, n);
+                for_each_task(on, n, detail::write_meetings<std::remove_cvref_t<decltype(first)>>{first, all.data()});
+                return all;
+            });
         return result<meeting, space_of<Policy>>(std::move(found));
     } else {
         return result<meeting, space_of<Policy>>();
     }
 }
 
-/// Which entries meet anything: a `result` of `std::uint8_t`, one of each entry in their order, 1 where `first_meetings` has a
-/// time and else 0. An entry is looked at no more after its first such pair, so that this takes less time. Memory, errors and
-/// synchronisation are those of `first_meetings`.
+/// Which entries meet anything: a `result` of `std::uint8_t`, one of each entry in their order, 1 where `first_meetings` has
+/// a time and else 0. An entry is looked at no more after its first such pair, so that this takes less time. Memory, errors
+/// and synchronisation are those of `first_meetings`.
 template <execution_policy Policy, class IndexA, class IndexB>
-[[nodiscard]] auto any_each(const Policy& on, const std::vector<moving_pair<IndexA, IndexB>>& list, const meeting_options& options) {
+[[nodiscard]] auto any_each(const Policy& on, const std::vector<moving_pair<IndexA, IndexB>>& list,
+                            const meeting_options& options) {
     using out = execution::buffer_of<Policy, std::uint8_t>;
     if constexpr (detail::can_turn<Policy, IndexA, IndexB>()) {
-        auto found = detail::meetings_of<true>(on, list, options, "abut::any_each", true, [&](std::size_t n, const auto& first) {
-            out all(on, n);
-            for_each_task(on, n, detail::write_whether_met<std::remove_cvref_t<decltype(first)>>{first, all.data()});
-            return all;
-        });
+        auto found =
+            detail::meetings_of<true>(on, list, options, "abut::any_each", true, [&](std::size_t n, const auto& first) {
+                out all(on, n);
+                for_each_task(on, n, detail::write_whether_met<std::remove_cvref_t<decltype(first)>>{first, all.data()});
+                return all;
+            });
         return result<std::uint8_t, space_of<Policy>>(std::move(found));
     } else {
         return result<std::uint8_t, space_of<Policy>>();
     }
 }
 
-/// What two bodies meet first, as `first_meetings` says of an entry; empty where they are proven to meet nothing. An argument is in
-/// motion, `moving(posed(x, from), posed(x, to))`, or at rest, `posed(x, pose)` or x: an index, a set, a view or one shape. A tree is
-/// made for the call where x is none. Memory, errors and synchronisation are those of `first_meetings` and `make_bvh`. One
-/// thread walks: give many motions to one call of that.
+/// What two bodies meet first, as `first_meetings` says of an entry; empty where they are proven to meet nothing. An
+/// argument is in motion, `moving(posed(x, from), posed(x, to))`, or at rest, `posed(x, pose)` or x: an index, a set, a view
+/// or one shape. A tree is made for the call where x is none. Memory, errors and synchronisation are those of
+/// `first_meetings` and `make_bvh`. One thread walks: give many motions to one call of that.
 ///
-///     if (abut::first_meeting(on, abut::moving(posed(robot, from), posed(robot, to)), room, {.tolerance = 1e-3})) turn_back();
+///     if (abut::first_meeting(on, abut::moving(posed(robot, from), posed(robot, to)), room, {.tolerance = 1e-3}))
+///     turn_back();
 template <execution_policy Policy, class X, class Y>
-[[nodiscard]] std::optional<meeting> first_meeting(const Policy& on, const X& a, const Y& b, const meeting_options& options) {
+[[nodiscard]] std::optional<meeting> first_meeting(const Policy& on, const X& a, const Y& b,
+                                                   const meeting_options& options) {
     auto of_a = detail::motion_of_argument(on, a);
     auto of_b = detail::motion_of_argument(on, b);
     using index_a = std::remove_cvref_t<decltype(of_a.object)>;

@@ -2,9 +2,10 @@
 #pragma once
 
 // When two shapes of bodies that turn come together: never too late, and early by no more than a length, the tolerance. By
-// conservative advancement: at a time the shapes' distance is bracketed by the search of Gilbert, Johnson and Keerthi in doubles;
-// if it is within the tolerance, that is the time; and else they are apart for some time along the direction that the search
-// ended with (shape/turning_reach.hpp). So the answer is a function of the two shapes, the motions and the tolerance alone.
+// conservative advancement: at a time the shapes' distance is bracketed by the search of Gilbert, Johnson and Keerthi in
+// doubles; if it is within the tolerance, that is the time; and else they are apart for some time along the direction that
+// the search ended with (shape/turning_reach.hpp). So the answer is a function of the two shapes, the motions and the
+// tolerance alone.
 //
 // For points, segments, triangles, spheres, capsules, boxes, oriented boxes and hulls, which have a core of points.
 
@@ -114,16 +115,20 @@ class turning_search {
 public:
     ABUT_HD turning_search(const hull<T>& a, double radius_a, const hull<T>& b, double radius_b, const turning_pair& both,
                            double tolerance)
-        : both_(both), a_(a, both.a.centre), b_(b, both.b.centre), bounds_(both, a_.radius(), b_.radius()),
-          radius_(plain_sum(radius_a, radius_b)), tolerance_(tolerance) {}
+        : both_(both),
+          a_(a, both.a.centre),
+          b_(b, both.b.centre),
+          bounds_(both, a_.radius(), b_.radius()),
+          radius_(plain_sum(radius_a, radius_b)),
+          tolerance_(tolerance) {}
 
     /// The time, where it is not after `until`; else one that may be infinite. They are known to be farther apart than the
     /// tolerance before `from`.
     ///
-    /// The way is searched in parts of 2^-6, each by itself, and what is found in the first that has something is the time. So
-    /// it is the same wherever a search begins: what is known to be far apart has nothing. A part takes at most most_steps
-    /// steps: after so many shapes have come as near as the tolerance for long, or that is far below what doubles tell; what is
-    /// said then is not late.
+    /// The way is searched in parts of 2^-6, each by itself, and what is found in the first that has something is the time.
+    /// So it is the same wherever a search begins: what is known to be far apart has nothing. A part takes at most
+    /// most_steps steps: after so many shapes have come as near as the tolerance for long, or that is far below what doubles
+    /// tell; what is said then is not late.
     [[nodiscard]] ABUT_HD turning_time find(double from, double until) {
         for (int part = part_of(from); part < parts;) {
             const turning_time found = look_in(part, until);
@@ -166,7 +171,8 @@ private:
             time = plain_sum(time, ahead);
         }
     }
-    /// Whether they are farther apart than the tolerance until `until`, or as far as into another part: then that is the part.
+    /// Whether they are farther apart than the tolerance until `until`, or as far as into another part: then that is the
+    /// part.
     [[nodiscard]] ABUT_HD bool is_passed(double time, double until, int& part) const {
         if (!(until >= time)) {
             part = -1;
@@ -185,11 +191,12 @@ private:
     [[nodiscard]] ABUT_HD bool has_way() const { return contact_math::largest_of(along_) > 0x1p-400; }
     [[nodiscard]] ABUT_HD ahead_type way_ahead(double radius) const {
         const double length = plain_length(along_);
-        return {a_, b_, both_, bounds_, frame_a_, frame_b_, {along_.x / length, along_.y / length, along_.z / length}, radius, bend_};
+        return {a_,     b_,   both_, bounds_, frame_a_, frame_b_, {along_.x / length, along_.y / length, along_.z / length},
+                radius, bend_};
     }
 
-    /// How far apart they are, at most, less the radii; it is at least a little less, along the direction that is left, if that is
-    /// more than the tolerance.
+    /// How far apart they are, at most, less the radii; it is at least a little less, along the direction that is left, if
+    /// that is more than the tolerance.
     [[nodiscard]] ABUT_NOINLINE ABUT_HD double nearest() {
         using namespace contact_math;
         plain_simplex at;
@@ -224,13 +231,13 @@ private:
 
 /// When two shapes of bodies in motion meet, if not after `until`. They are farther apart than the tolerance before `from`.
 template <turnable S, turnable U>
-ABUT_NOINLINE ABUT_HD turning_time turning_time_of(const S& s, const U& t, const turning_pair& both, double tolerance, double from = 0,
-                                                   double until = 1) {
+ABUT_NOINLINE ABUT_HD turning_time turning_time_of(const S& s, const U& t, const turning_pair& both, double tolerance,
+                                                   double from = 0, double until = 1) {
     const auto points_a = core_points_of(s);
     const auto points_b = core_points_of(t);
     const hull<scalar_type_of<S>>&a = points_a.as_hull(), &b = points_b.as_hull();  // perhaps of what is made here
-    turning_search<scalar_type_of<S>> search(a, static_cast<double>(radius_around_core(s)), b, static_cast<double>(radius_around_core(t)),
-                                             both, tolerance);
+    turning_search<scalar_type_of<S>> search(a, static_cast<double>(radius_around_core(s)), b,
+                                             static_cast<double>(radius_around_core(t)), both, tolerance);
     return search.find(from, until);
 }
 

@@ -8,16 +8,16 @@
 //
 //     x(t) = R(t) (r - c) + p(t),    R(t) = exp(t theta [u]) (F + t E),    p(t) = p0 + t (p1 - p0),
 //
-// where F is the first rotation as it was given, c the centre in the body's frame, p0 and p1 where the two poses place it, and
-// E = exp(-theta [u]) G - F, with G the second rotation. So both ends are those that were given: R(0) = F and R(1) = G. The axis
-// u and the angle theta are those of the unit quaternion of G F^T, by Shepperd's method (1978). Where both rotations are
-// orthonormal E is what rounding left of them. Where they are so within `rotation_tolerance` the body is bent from one into the
-// other, by 2^-8 of its size at most. All numbers are doubles. As they are rounded they are the motion: its end is off from the
-// second pose by less than 2^-44 of the sizes that are added.
+// where F is the first rotation as it was given, c the centre in the body's frame, p0 and p1 where the two poses place it,
+// and E = exp(-theta [u]) G - F, with G the second rotation. So both ends are those that were given: R(0) = F and R(1) = G.
+// The axis u and the angle theta are those of the unit quaternion of G F^T, by Shepperd's method (1978). Where both
+// rotations are orthonormal E is what rounding left of them. Where they are so within `rotation_tolerance` the body is bent
+// from one into the other, by 2^-8 of its size at most. All numbers are doubles. As they are rounded they are the motion:
+// its end is off from the second pose by less than 2^-44 of the sizes that are added.
 //
 // Derivatives. x' = theta u x (R(t) (r - c)) + exp(t theta [u]) E (r - c) + p1 - p0. The second term is no longer than
-// |E| |r - c|, with Frobenius' norm. x'' is no longer than theta^2 times the distance to the axis plus 2 theta |E| |r - c|, and that
-// distance changes on the way by |E| |r - c| at most. These bounds are what all that follows is made of.
+// |E| |r - c|, with Frobenius' norm. x'' is no longer than theta^2 times the distance to the axis plus 2 theta |E| |r - c|,
+// and that distance changes on the way by |E| |r - c| at most. These bounds are what all that follows is made of.
 
 #include <cmath>
 #include <string>
@@ -39,9 +39,9 @@ template <scalar T>
 struct turning {
     /// The point of the body, in its own frame, that goes in a straight line at constant speed.
     vec3<T> centre{0, 0, 0};
-    /// In the world, of any length; zero for the shorter way round. Otherwise the body turns to the left about that direction, by
-    /// less than a full turn: the axis of the turn is the one that both poses tell, and this says which of its two directions is
-    /// meant. A half turn needs it.
+    /// In the world, of any length; zero for the shorter way round. Otherwise the body turns to the left about that
+    /// direction, by less than a full turn: the axis of the turn is the one that both poses tell, and this says which of its
+    /// two directions is meant. A half turn needs it.
     vec3<T> axis{0, 0, 0};
 };
 
@@ -51,9 +51,9 @@ namespace detail {
 struct sine_and_versine {
     double sine, versine;
 };
-/// Of an angle from 0 to 2 pi, each within 2^-46: Taylor's series for a sixteenth of it, whose rest is below 2^-60, and four times
-/// the double angle. Each doubling makes an error at most four times as large and adds less than 2^-52, but the first ones, of
-/// small angles, far less.
+/// Of an angle from 0 to 2 pi, each within 2^-46: Taylor's series for a sixteenth of it, whose rest is below 2^-60, and four
+/// times the double angle. Each doubling makes an error at most four times as large and adds less than 2^-52, but the first
+/// ones, of small angles, far less.
 ABUT_HD constexpr sine_and_versine sine_and_versine_of(double angle) {
     const double y = 0x1p-4 * angle, z = plain_product(y, y);
     constexpr double of_sine[] = {-1.0 / 6, 1.0 / 120, -1.0 / 5040, 1.0 / 362880, -1.0 / 39916800, 1.0 / 6227020800},
@@ -75,7 +75,9 @@ ABUT_HD constexpr sine_and_versine sine_and_versine_of(double angle) {
 
 // In doubles, each operation rounded.
 
-ABUT_INLINE ABUT_HD constexpr double plain_along(const vec3<double>& v, const vec3<double>& p) { return placed(v.x, v.y, v.z, p, 0.0); }
+ABUT_INLINE ABUT_HD constexpr double plain_along(const vec3<double>& v, const vec3<double>& p) {
+    return placed(v.x, v.y, v.z, p, 0.0);
+}
 ABUT_INLINE ABUT_HD constexpr vec3<double> plain_across(const vec3<double>& a, const vec3<double>& b) {
     const auto minor = [](double s, double t, double x, double y) {
         return plain_sum(plain_product(s, t), -plain_product(x, y));
@@ -103,19 +105,20 @@ struct turned_frame {
     }
     /// A direction of the world, by the transposed.
     [[nodiscard]] ABUT_INLINE ABUT_HD constexpr vec3<double> back(const vec3<double>& n) const {
-        return plain_move(plain_move({plain_product(n.x, rows[0].x), plain_product(n.x, rows[0].y), plain_product(n.x, rows[0].z)}, n.y,
-                                     rows[1]),
-                          n.z, rows[2]);
+        return plain_move(
+            plain_move({plain_product(n.x, rows[0].x), plain_product(n.x, rows[0].y), plain_product(n.x, rows[0].z)}, n.y,
+                       rows[1]),
+            n.z, rows[2]);
     }
 };
 
 /// A motion, as above. Plain data.
 struct rigid_motion {
-    vec3<double> from[3], drift[3];      ///< rows of F and E
-    vec3<double> axis;                   ///< u, of length 1 but for rounding
-    double angle;                        ///< theta, from 0 to 2 pi
-    double off;                          ///< no less than |E|
-    vec3<double> centre, start, way;     ///< c, p0 and p1 - p0
+    vec3<double> from[3], drift[3];   ///< rows of F and E
+    vec3<double> axis;                ///< u, of length 1 but for rounding
+    double angle;                     ///< theta, from 0 to 2 pi
+    double off;                       ///< no less than |E|
+    vec3<double> centre, start, way;  ///< c, p0 and p1 - p0
 
     /// Whether nothing moves.
     [[nodiscard]] ABUT_HD bool is_still() const { return angle == 0 && off == 0 && way == vec3<double>{0, 0, 0}; }
@@ -130,9 +133,10 @@ struct rigid_motion {
     [[nodiscard]] ABUT_HD turned_frame turned_by(double by, const turned_frame& f) const {
         const auto [s, v] = sine_and_versine_of(by);
         const vec3<double>& u = axis;
-        const double x = plain_product(v, u.x), y = plain_product(v, u.y), z = plain_product(v, u.z), sx = plain_product(s, u.x),
-                     sy = plain_product(s, u.y), sz = plain_product(s, u.z), xx = plain_product(x, u.x), yy = plain_product(y, u.y),
-                     zz = plain_product(z, u.z), xy = plain_product(x, u.y), yz = plain_product(y, u.z), zx = plain_product(z, u.x);
+        const double x = plain_product(v, u.x), y = plain_product(v, u.y), z = plain_product(v, u.z),
+                     sx = plain_product(s, u.x), sy = plain_product(s, u.y), sz = plain_product(s, u.z),
+                     xx = plain_product(x, u.x), yy = plain_product(y, u.y), zz = plain_product(z, u.z),
+                     xy = plain_product(x, u.y), yz = plain_product(y, u.z), zx = plain_product(z, u.x);
         const vec3<double> turn[3] = {{plain_sum(1.0, -plain_sum(yy, zz)), plain_sum(xy, -sz), plain_sum(zx, sy)},
                                       {plain_sum(xy, sz), plain_sum(1.0, -plain_sum(xx, zz)), plain_sum(yz, -sx)},
                                       {plain_sum(zx, -sy), plain_sum(yz, sx), plain_sum(1.0, -plain_sum(xx, yy))}};
@@ -186,16 +190,19 @@ inline axis_and_angle axis_of_turn(const vec3<double> (&q)[3]) {
 }
 
 /// The motion from one pose to another, which are checked. Throws error in the name of `function` for a half turn without an
-/// axis, and for an axis that is nearly at a right angle to that of the turn; and invalid_geometry where a number is not finite.
+/// axis, and for an axis that is nearly at a right angle to that of the turn; and invalid_geometry where a number is not
+/// finite.
 template <scalar T>
-rigid_motion make_rigid_motion(const rigid<T>& from, const rigid<T>& to, const turning<T>& about, const std::string& function) {
+rigid_motion make_rigid_motion(const rigid<T>& from, const rigid<T>& to, const turning<T>& about,
+                               const std::string& function) {
     check(from, function + ": at t = 0");
     check(to, function + ": at t = 1");
     const auto check_vector = [&](const vec3<T>& v, const char* what) {
         const T numbers[3] = {v.x, v.y, v.z};
         for (std::size_t i = 0; i < 3; ++i) {
             if (!is_finite(numbers[i])) {
-                throw invalid_geometry(function, std::string(what) + " coordinate", i, "is not finite", static_cast<double>(numbers[i]));
+                throw invalid_geometry(function, std::string(what) + " coordinate", i, "is not finite",
+                                       static_cast<double>(numbers[i]));
             }
         }
     };

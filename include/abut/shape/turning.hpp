@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Bodies that turn: `moving(posed(x, from), posed(x, to))` is a set, an index or one shape on its way from one pose to another. What
-// the way is says shape/rigid_motion.hpp.
+// Bodies that turn: `moving(posed(x, from), posed(x, to))` is a set, an index or one shape on its way from one pose to
+// another. What the way is says shape/rigid_motion.hpp.
 
 #include <concepts>
 #include <type_traits>
@@ -76,9 +76,10 @@ bool are_one(const Object& a, const Object& b) {
 
 }  // namespace detail
 
-/// A body that turns: `at_t0` and `at_t1` are the same set, index or shape under two poses. A point of the body goes in a straight
-/// line at constant speed: the origin of its frame, or `about.centre`. The body turns about that point, at a constant rate and
-/// about a constant axis, the shorter way round, or as `about.axis` says. At both ends the poses are those that were given.
+/// A body that turns: `at_t0` and `at_t1` are the same set, index or shape under two poses. A point of the body goes in a
+/// straight line at constant speed: the origin of its frame, or `about.centre`. The body turns about that point, at a
+/// constant rate and about a constant axis, the shorter way round, or as `about.axis` says. At both ends the poses are those
+/// that were given.
 ///
 /// Throws error where the two are different objects. Poses are checked by what takes the motion. Returns at once.
 ///

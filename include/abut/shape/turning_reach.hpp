@@ -2,22 +2,22 @@
 #pragma once
 
 // How long two convex shapes that turn stay apart: a bound along one direction, by which conservative advancement takes its
-// steps (B. Mirtich, Timewarp rigid body simulation, 2000, for the bound; here with the curvature of the ways instead of their
-// greatest speed).
+// steps (B. Mirtich, Timewarp rigid body simulation, 2000, for the bound; here with the curvature of the ways instead of
+// their greatest speed).
 //
-// Let n be a direction of length 1, and f(s) the gap between the shapes along it at the time t + s. A point's height n . x changes
-// by its speed n . x' at t times s, and by no more than the bound of x'' times s^2 / 2 besides (rigid_motion.hpp). The height and
-// speed of a point are linear in where it lies in the body. So, for each s, the least and the most of height plus s times speed
-// are at points that are farthest along some direction of the body's frame, and
+// Let n be a direction of length 1, and f(s) the gap between the shapes along it at the time t + s. A point's height n . x
+// changes by its speed n . x' at t times s, and by no more than the bound of x'' times s^2 / 2 besides (rigid_motion.hpp).
+// The height and speed of a point are linear in where it lies in the body. So, for each s, the least and the most of height
+// plus s times speed are at points that are farthest along some direction of the body's frame, and
 //
 //     g(s) = min over b - max over a - s drift - K s^2 - margin  <=  f(s)
 //
-// is concave: where it is not negative at two times, it is not in between. A time at which it is 0 is looked for by the quadratic
-// that touches it, and by chords, which lie below.
+// is concave: where it is not negative at two times, it is not in between. A time at which it is 0 is looked for by the
+// quadratic that touches it, and by chords, which lie below.
 //
-// Rounding. All numbers that are added have magnitudes below `size`, the sum of what the motions and the shapes have. No more than
-// some forty roundings on the way of each number, a sine and a cosine within 2^-46, and an axis of length 1 within 2^-50 make
-// less than 2^-43 of it. The margin is 2^-40.
+// Rounding. All numbers that are added have magnitudes below `size`, the sum of what the motions and the shapes have. No
+// more than some forty roundings on the way of each number, a sine and a cosine within 2^-46, and an axis of length 1 within
+// 2^-50 make less than 2^-43 of it. The margin is 2^-40.
 
 #include <cmath>
 
@@ -35,8 +35,8 @@ struct turning_pair {
     rigid_motion a, b;
 };
 
-/// What bounds are made of for all points of two bodies that are no farther from the centres of their motions than two radii,
-/// where they are placed.
+/// What bounds are made of for all points of two bodies that are no farther from the centres of their motions than two
+/// radii, where they are placed.
 struct turning_bounds {
     double margin;  ///< for rounding
     double drift;   ///< the greatest speed that both have by E
@@ -48,13 +48,15 @@ struct turning_bounds {
     turning_bounds() = default;
     ABUT_HD turning_bounds(const turning_pair& both, double radius_a, double radius_b)
         : margin(plain_product(0x1p-40, plain_sum(size_of(both.a, radius_a), size_of(both.b, radius_b)))),
-          drift(plain_product(1 + 0x1p-20, plain_sum(plain_product(both.a.off, radius_a), plain_product(both.b.off, radius_b)))),
+          drift(plain_product(1 + 0x1p-20,
+                              plain_sum(plain_product(both.a.off, radius_a), plain_product(both.b.off, radius_b)))),
           bend(plain_product(1 + 0x1p-20, plain_sum(bend_of(both.a, radius_a), bend_of(both.b, radius_b)))) {}
 
     /// Of a box.
     template <scalar T>
     static double radius(const rigid_motion& m, const aabb<T>& box) {
-        const vec3<double> lower = plain_move(widened(box.lower), -1.0, m.centre), upper = plain_move(widened(box.upper), -1.0, m.centre);
+        const vec3<double> lower = plain_move(widened(box.lower), -1.0, m.centre),
+                           upper = plain_move(widened(box.upper), -1.0, m.centre);
         return plain_product(stretch, plain_length(greatest(absolute(lower), absolute(upper))));
     }
 
@@ -89,7 +91,8 @@ struct turned_box {
     }
 };
 
-/// The gap between two shapes along a direction of length 1, from a time on. Shapes tell their farthest point along a direction.
+/// The gap between two shapes along a direction of length 1, from a time on. Shapes tell their farthest point along a
+/// direction.
 template <class A, class B>
 struct gap_ahead {
     const A& a;
@@ -102,9 +105,14 @@ struct gap_ahead {
     };
 
     /// What is within `radius` of one of them belongs to it. The bend of the shapes is given.
-    ABUT_HD gap_ahead(const A& first, const B& second, const turning_pair& both, const turning_bounds& bounds, const turned_frame& at_a,
-                      const turned_frame& at_b, const vec3<double>& n, double radius, double bend_of_shapes)
-        : a(first), b(second), height_a(at_a.back(n)), speed_a(speed_along(both.a, at_a, n)), height_b(at_b.back(n)),
+    ABUT_HD gap_ahead(const A& first, const B& second, const turning_pair& both, const turning_bounds& bounds,
+                      const turned_frame& at_a, const turned_frame& at_b, const vec3<double>& n, double radius,
+                      double bend_of_shapes)
+        : a(first),
+          b(second),
+          height_a(at_a.back(n)),
+          speed_a(speed_along(both.a, at_a, n)),
+          height_b(at_b.back(n)),
           speed_b(speed_along(both.b, at_b, n)),
           apart(plain_sum(plain_along(n, plain_move(at_b.at, -1.0, at_a.at)), -plain_sum(radius, bounds.margin))),
           closing(plain_sum(plain_along(n, plain_move(both.b.way, -1.0, both.a.way)), -bounds.drift)),
@@ -162,8 +170,8 @@ private:
     }
 };
 
-/// Two trees' frames at a time, and how boxes of both lie to each other there. Which direction tells boxes apart is a guess, for
-/// which any rounding will do.
+/// Two trees' frames at a time, and how boxes of both lie to each other there. Which direction tells boxes apart is a guess,
+/// for which any rounding will do.
 struct turned_frames {
     double time = -1;
     turned_frame a{}, b{};
@@ -188,15 +196,17 @@ struct turned_frames {
         }
         apart = {along[0], along[1], along[2]};
     }
-    /// Boxes are farther apart than `far` from the frames' time until the one that is returned, or until `end`. `gap` is that
-    /// along the direction that was tried.
-    [[nodiscard]] ABUT_HD double free_until(const turned_box& p, const turned_box& q, const turning_pair& both, const turning_bounds& bounds,
-                                            double far, double end, double& gap) const {
+    /// Boxes are farther apart than `far` from the frames' time until the one that is returned, or until `end`. `gap` is
+    /// that along the direction that was tried.
+    [[nodiscard]] ABUT_HD double free_until(const turned_box& p, const turned_box& q, const turning_pair& both,
+                                            const turning_bounds& bounds, double far, double end, double& gap) const {
         const vec3<double>(&r)[3] = b_in_a;
-        const vec3<double> d = vec3<double>{dot(r[0], q.middle), dot(r[1], q.middle), dot(r[2], q.middle)} + apart - p.middle;
+        const vec3<double> d =
+            vec3<double>{dot(r[0], q.middle), dot(r[1], q.middle), dot(r[2], q.middle)} + apart - p.middle;
         const vec3<double> d_in_b = d.x * r[0] + d.y * r[1] + d.z * r[2];
         const vec3<double> m[3] = {absolute(r[0]), absolute(r[1]), absolute(r[2])};
-        const vec3<double> of_a = absolute(d) - (p.half + vec3<double>{dot(m[0], q.half), dot(m[1], q.half), dot(m[2], q.half)});
+        const vec3<double> of_a =
+            absolute(d) - (p.half + vec3<double>{dot(m[0], q.half), dot(m[1], q.half), dot(m[2], q.half)});
         const vec3<double> of_b = absolute(d_in_b) - (q.half + p.half.x * m[0] + p.half.y * m[1] + p.half.z * m[2]);
         const double length = std::sqrt(dot(d, d));
         gap = length > 0 ? length - (dot(absolute(d), p.half) + dot(absolute(d_in_b), q.half)) / length : 0;

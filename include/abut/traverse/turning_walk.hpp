@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Two trees whose bodies turn, for the pair of shapes that meets first: each pair of nodes has a time before which nothing in it
-// comes near, and the earliest of all that wait is opened next. What is found prunes the rest. Boxes stay in the frames of their
-// bodies.
+// Two trees whose bodies turn, for the pair of shapes that meets first: each pair of nodes has a time before which nothing
+// in it comes near, and the earliest of all that wait is opened next. What is found prunes the rest. Boxes stay in the
+// frames of their bodies.
 
 #include <cstdint>
 
@@ -16,10 +16,10 @@
 
 namespace abut::detail {
 
-/// Down from both roots, always through the larger of two boxes. What finds no more room in a heap is walked depth first. The
-/// best tells `until()`, a time after which nothing is wanted; visitor(id, id, from) tells it of what it finds of a pair that comes
-/// no nearer than `far` before a time, and whether to go on. What is told does not depend on the trees: a pair is passed over
-/// only where its boxes are farther apart than `far` until that time.
+/// Down from both roots, always through the larger of two boxes. What finds no more room in a heap is walked depth first.
+/// The best tells `until()`, a time after which nothing is wanted; visitor(id, id, from) tells it of what it finds of a pair
+/// that comes no nearer than `far` before a time, and whether to go on. What is told does not depend on the trees: a pair is
+/// passed over only where its boxes are farther apart than `far` until that time.
 template <bvh_layout A, bvh_layout B>
 struct turning_walk {
     A a;
@@ -37,13 +37,15 @@ struct turning_walk {
 
     ABUT_CALLS_ANY
     template <class Best, class Visitor>
-    ABUT_HD void operator()(const turning_pair& both, const turning_bounds& bounds, double far, const Best& best, const Visitor& visitor) const {
+    ABUT_HD void operator()(const turning_pair& both, const turning_bounds& bounds, double far, const Best& best,
+                            const Visitor& visitor) const {
         if (a.size() == 0 || b.size() == 0) return;
         step<Best, Visitor> one{*this, both, bounds, far, best, visitor};
         heap waiting;
         const side<A> at_a{a, root_of(a)};
         const side<B> at_b{b, root_of(b)};
-        one.keep({at_a.link, at_b.link, 0, 0}, turned_box(at_a.box(), both.a.centre), turned_box(at_b.box(), both.b.centre), waiting);
+        one.keep({at_a.link, at_b.link, 0, 0}, turned_box(at_a.box(), both.a.centre), turned_box(at_b.box(), both.b.centre),
+                 waiting);
         while (waiting.count > 0) {
             const item at = waiting.take();
             if (static_cast<double>(at.from) > best.until()) return;
@@ -81,7 +83,9 @@ private:
             if (!at.is_leaf) return box_of_node(tree, at.node);
             return aabb<typename Tree::scalar_type>(tree.bounds(tree.fetch(at.node), static_cast<int>(at.slot)));
         }
-        [[nodiscard]] ABUT_HD std::uint32_t shape() const { return link == whole ? tree.root().index() : shape_of_leaf(tree, link); }
+        [[nodiscard]] ABUT_HD std::uint32_t shape() const {
+            return link == whole ? tree.root().index() : shape_of_leaf(tree, link);
+        }
         /// f(link, box) of each child.
         ABUT_CALLS_ANY
         template <class F>
