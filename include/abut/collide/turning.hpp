@@ -6,6 +6,7 @@
 // least ids. Trees only pass over what comes no nearer than the tolerance by then (traverse/turning_walk.hpp). Each entry of
 // a list is walked by one thread.
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -98,17 +99,19 @@ struct first_of_entry {
         return best.found;
     }
 };
-template <class First>
+/// A meeting, or whether there is one.
+template <class Answer, class IndexA, class IndexB>
 struct write_meetings {
-    First first;
-    meeting* out;
-    ABUT_HD void operator()(std::size_t i) const { out[i] = first(i); }
-};
-template <class First>
-struct write_whether_met {
-    First first;
-    std::uint8_t* out;
-    ABUT_HD void operator()(std::size_t i) const { out[i] = first(i).time <= 1; }
+    first_of_entry<std::same_as<Answer, std::uint8_t>, IndexA, IndexB> first;
+    Answer* out;
+    ABUT_HD void operator()(std::size_t i) const {
+        const meeting found = first(i);
+        if constexpr (std::same_as<Answer, meeting>) {
+            out[i] = found;
+        } else {
+            out[i] = found.time <= 1;
+        }
+    }
 };
 
 inline void check(const meeting_options& options, const std::string& function) {
@@ -143,10 +146,10 @@ consteval bool can_turn() {
     }
 }
 
-/// Of each entry what make(on, n, functor) makes of the first.
-template <bool Any, class Policy, class IndexA, class IndexB, class Make>
+/// An answer of each entry, in the policy's memory; complete when it returns.
+template <class Answer, class Policy, class IndexA, class IndexB>
 auto meetings_of(const Policy& on, const std::vector<moving_pair<IndexA, IndexB>>& list, const meeting_options& options,
-                 const std::string& function, bool is_list, const Make& make) {
+                 const std::string& function, bool is_list) {
     check(options, function);
     const std::size_t n = list.size();
     const gathered_bodies<IndexA> of_a(n, [&](std::size_t i) {
@@ -173,15 +176,24 @@ auto meetings_of(const Policy& on, const std::vector<moving_pair<IndexA, IndexB>
     const auto objects_b = make_objects(on, of_b.indices, of_b.object_of, function.c_str());
     execution::buffer_of<Policy, turning_entry> there(on, n);
     upload(on, entries.data(), n, there.data());
-    const first_of_entry<Any, IndexA, IndexB> first{objects_a->objects.data(),
-                                                    objects_b->objects.data(),
-                                                    objects_a->object_of.data(),
-                                                    objects_b->object_of.data(),
-                                                    there.data(),
-                                                    options.tolerance};
-    auto made = make(n, first);
+    execution::buffer_of<Policy, Answer> out(on, n);
+    using write = write_meetings<Answer, IndexA, IndexB>;
+    for_each_task(on, n,
+                  write{{objects_a->objects.data(), objects_b->objects.data(), objects_a->object_of.data(),
+                         objects_b->object_of.data(), there.data(), options.tolerance},
+                        out.data()});
     synchronize(on);
-    return made;
+    return out;
+}
+/// The same as a `result`.
+template <class Answer, class Policy, class IndexA, class IndexB>
+auto ask_meetings(const Policy& on, const std::vector<moving_pair<IndexA, IndexB>>& list, const meeting_options& options,
+                  const char* function) {
+    if constexpr (can_turn<Policy, IndexA, IndexB>()) {
+        return result<Answer, space_of<Policy>>(meetings_of<Answer>(on, list, options, function, true));
+    } else {
+        return result<Answer, space_of<Policy>>();
+    }
 }
 
 /// A body of which a query of two is asked, over an index.
@@ -217,8 +229,7 @@ auto motion_of_argument(const Policy& on, const X& x) {
 /// docs/turning.md says what the way between two poses is.
 ///
 /// Bodies are indices made by make_bvh of any layout, over points, segments, triangles, spheres, capsules, boxes, oriented
-/// boxes and hulls. Solids are met from outside: a shape that is inside of a hull or a ball touches it; one that is inside
-/// of a closed mesh does not.
+/// boxes and hulls. All but triangles, segments and points are solid; what is inside of a closed mesh does not touch it.
 ///
 /// @par Memory
 /// Indices lie in the policy's memory, the list in host memory. The call copies 550 bytes an entry to the policy's memory,
@@ -237,23 +248,12 @@ auto motion_of_argument(const Policy& on, const X& x) {
 ///
 /// @par Example
 ///     std::vector<abut::moving_pair<index>> edges;
-///     for (const auto& [from, to] : roadmap) edges.push_back({moving(posed(robot, from), posed(robot, to)), posed(room,
-///     {})}); for (const auto& m : abut::to_host(abut::first_meetings(on, edges, {.tolerance = 1e-3}))) use(m.time);
+///     for (const auto& [p, q] : roadmap) edges.push_back({moving(posed(robot, p), posed(robot, q)), posed(room, here)});
+///     for (const auto& m : to_host(abut::first_meetings(on, edges, {.tolerance = 1e-3}))) use(m.time);
 template <execution_policy Policy, class IndexA, class IndexB>
 [[nodiscard]] auto first_meetings(const Policy& on, const std::vector<moving_pair<IndexA, IndexB>>& list,
                                   const meeting_options& options) {
-    using out = execution::buffer_of<Policy, meeting>;
-    if constexpr (detail::can_turn<Policy, IndexA, IndexB>()) {
-        auto found = detail::meetings_of<false>(
-            on, list, options, "abut::first_meetings", true, [&](std::size_t n, const auto& first) {
-                out all(on, n);
-                for_each_task(on, n, detail::write_meetings<std::remove_cvref_t<decltype(first)>>{first, all.data()});
-                return all;
-            });
-        return result<meeting, space_of<Policy>>(std::move(found));
-    } else {
-        return result<meeting, space_of<Policy>>();
-    }
+    return detail::ask_meetings<meeting>(on, list, options, "abut::first_meetings");
 }
 
 /// Which entries meet anything: a `result` of `std::uint8_t`, one of each entry in their order, 1 where `first_meetings` has
@@ -262,18 +262,7 @@ template <execution_policy Policy, class IndexA, class IndexB>
 template <execution_policy Policy, class IndexA, class IndexB>
 [[nodiscard]] auto any_each(const Policy& on, const std::vector<moving_pair<IndexA, IndexB>>& list,
                             const meeting_options& options) {
-    using out = execution::buffer_of<Policy, std::uint8_t>;
-    if constexpr (detail::can_turn<Policy, IndexA, IndexB>()) {
-        auto found =
-            detail::meetings_of<true>(on, list, options, "abut::any_each", true, [&](std::size_t n, const auto& first) {
-                out all(on, n);
-                for_each_task(on, n, detail::write_whether_met<std::remove_cvref_t<decltype(first)>>{first, all.data()});
-                return all;
-            });
-        return result<std::uint8_t, space_of<Policy>>(std::move(found));
-    } else {
-        return result<std::uint8_t, space_of<Policy>>();
-    }
+    return detail::ask_meetings<std::uint8_t>(on, list, options, "abut::any_each");
 }
 
 /// What two bodies meet first, as `first_meetings` says of an entry; empty where they are proven to meet nothing. An
@@ -292,13 +281,9 @@ template <execution_policy Policy, class X, class Y>
     using index_b = std::remove_cvref_t<decltype(of_b.object)>;
     if constexpr (detail::can_turn<Policy, index_a, index_b>()) {
         const std::vector<moving_pair<index_a, index_b>> list{{std::move(of_a), std::move(of_b)}};
+        const auto answer = detail::meetings_of<meeting>(on, list, options, "abut::first_meeting", false);
         meeting found{};
-        detail::meetings_of<false>(on, list, options, "abut::first_meeting", false, [&](std::size_t n, const auto& first) {
-            execution::buffer_of<Policy, meeting> all(on, n);
-            for_each_task(on, n, detail::write_meetings<std::remove_cvref_t<decltype(first)>>{first, all.data()});
-            download(on, all.data(), n, &found);
-            return 0;
-        });
+        download(on, answer.data(), 1, &found);
         if (found.a != no_id) return found;
     }
     return std::nullopt;
