@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <abut/collide/turning.hpp>
 
+#include <cmath>
 #include <optional>
 #include <string>
+#include <type_traits>
+#include <vector>
 
 #include <abut/shape/hulls.hpp>
 
@@ -46,6 +49,14 @@ TEST_CASE("first_meeting: sets, indices and single shapes, in motion and at rest
     // sqrt(2) cos(pi / 4 - angle) = 1.4
     const double touch = (0.78539816339744831 - std::acos(static_cast<double>(1.4f) / std::sqrt(2.0))) / 1.57079632679489662;
     CHECK((spun->time <= touch + 1e-12 && spun->time > touch - 1e-8));
+    // The same with more points than are kept, of which the corners come last.
+    std::vector<vec3<float>> many;
+    for (int i = 0; i < 15; ++i) many.push_back({0.05f * static_cast<float>(i), 0.1f, -0.9f});
+    for (int i = 0; i < 8; ++i) many.push_back({i & 1 ? 1.f : -1.f, i & 2 ? 1.f : -1.f, i & 4 ? 1.f : -1.f});
+    const hull<float> of_many(many.data(), many.size());
+    const auto again = first_meeting(on, moving(posed(of_many, start), posed(of_many, quarter)), near_wall, {.tolerance = 1e-9});
+    REQUIRE(again.has_value());
+    CHECK((again->time <= touch + 1e-12 && again->time > touch - 1e-8));
     // Both in motion: half of the way each.
     const rigid<float> back{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {-2, 0, 0}}, ahead{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {2, 0, 0}};
     check(first_meeting(on, moving(posed(balls, start), posed(balls, ahead)), moving(posed(wall, start), posed(wall, back)),
