@@ -137,10 +137,23 @@ public:
         return {};
     }
 
+    /// Whether they touch at a time, but for so little that a search has to end there at the latest.
+    [[nodiscard]] ABUT_HD bool touch_at(double time) {
+        move_to(time);
+        along_ = plain_move(b_.middle(), -1.0, a_.middle());
+        return nearest() <= 0.5 * bounds_.margin;
+    }
+
 private:
     static constexpr int parts = 64, most_steps = 1 << 12;
     using ahead_type = gap_ahead<turned_core<T>, turned_core<T>>;
 
+    ABUT_HD void move_to(double time) {
+        frame_a_ = both_.a.frame(time);
+        frame_b_ = both_.b.frame(time);
+        a_.move_to(frame_a_);
+        b_.move_to(frame_b_);
+    }
     [[nodiscard]] ABUT_HD static int part_of(double time) {
         const int part = static_cast<int>(time * parts);
         return part < parts ? part : parts - 1;
@@ -150,10 +163,7 @@ private:
         const double begin = static_cast<double>(part) / parts, end = static_cast<double>(part + 1) / parts;
         double time = begin;
         for (int step = 0;; ++step) {
-            frame_a_ = both_.a.frame(time);
-            frame_b_ = both_.b.frame(time);
-            a_.move_to(frame_a_);
-            b_.move_to(frame_b_);
+            move_to(time);
             bend_ = plain_sum(a_.bend(both_.a, frame_a_), b_.bend(both_.b, frame_b_));
             if (step == 0) {
                 along_ = plain_move(b_.middle(), -1.0, a_.middle());
@@ -229,16 +239,26 @@ private:
     point along_{0, 0, 0};
 };
 
-/// When two shapes of bodies in motion meet, if not after `until`. They are farther apart than the tolerance before `from`.
-template <turnable S, turnable U>
-ABUT_NOINLINE ABUT_HD turning_time turning_time_of(const S& s, const U& t, const turning_pair& both, double tolerance,
-                                                   double from = 0, double until = 1) {
+/// f(search) of two shapes of bodies in motion.
+template <turnable S, turnable U, class F>
+ABUT_HD auto with_turning_search(const S& s, const U& t, const turning_pair& both, double tolerance, const F& f) {
     const auto points_a = core_points_of(s);
     const auto points_b = core_points_of(t);
     const hull<scalar_type_of<S>>&a = points_a.as_hull(), &b = points_b.as_hull();  // perhaps of what is made here
     turning_search<scalar_type_of<S>> search(a, static_cast<double>(radius_around_core(s)), b,
                                              static_cast<double>(radius_around_core(t)), both, tolerance);
-    return search.find(from, until);
+    return f(search);
+}
+/// When two shapes of bodies in motion meet, if not after `until`. They are farther apart than the tolerance before `from`.
+template <turnable S, turnable U>
+ABUT_NOINLINE ABUT_HD turning_time turning_time_of(const S& s, const U& t, const turning_pair& both, double tolerance,
+                                                   double from = 0, double until = 1) {
+    return with_turning_search(s, t, both, tolerance, [&](auto& search) { return search.find(from, until); });
+}
+/// Whether two shapes touch at a time, for certain but for rounding: then they meet.
+template <turnable S, turnable U>
+ABUT_NOINLINE ABUT_HD bool touch_at_time(const S& s, const U& t, const turning_pair& both, double tolerance, double time) {
+    return with_turning_search(s, t, both, tolerance, [&](auto& search) { return search.touch_at(time); });
 }
 
 }  // namespace abut::detail

@@ -38,14 +38,14 @@ struct turning_walk {
     ABUT_CALLS_ANY
     template <class Best, class Visitor>
     ABUT_HD void operator()(const turning_pair& both, const turning_bounds& bounds, double far, const Best& best,
-                            const Visitor& visitor) const {
+                            const Visitor& visitor, float begin = 0) const {
         if (a.size() == 0 || b.size() == 0) return;
         step<Best, Visitor> one{*this, both, bounds, far, best, visitor};
         heap waiting;
         const side<A> at_a{a, root_of(a)};
         const side<B> at_b{b, root_of(b)};
-        one.keep({at_a.link, at_b.link, 0, 0}, turned_box(at_a.box(), both.a.centre), turned_box(at_b.box(), both.b.centre),
-                 waiting);
+        one.keep({at_a.link, at_b.link, begin, 0}, turned_box(at_a.box(), both.a.centre),
+                 turned_box(at_b.box(), both.b.centre), waiting);
         while (waiting.count > 0) {
             const item at = waiting.take();
             if (static_cast<double>(at.from) > best.until()) return;
