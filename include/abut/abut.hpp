@@ -44,6 +44,7 @@
 #include <abut/collide/spans.hpp>
 #include <abut/collide/sweep.hpp>
 #include <abut/collide/touching_bodies.hpp>
+#include <abut/collide/turning.hpp>
 #include <abut/collide/validate.hpp>
 #include <abut/collide/welded_near.hpp>
 #include <abut/collide/winding_number.hpp>
