@@ -19,6 +19,7 @@
 #include <abut/collide/curves.hpp>
 #include <abut/collide/distance.hpp>
 #include <abut/collide/first_impact.hpp>
+#include <abut/collide/first_sweep.hpp>
 #include <abut/collide/impact_details.hpp>
 #include <abut/collide/impacts.hpp>
 #include <abut/collide/hausdorff.hpp>
