@@ -43,6 +43,7 @@
 #include <abut/collide/safe_step.hpp>
 #include <abut/collide/self_pairs.hpp>
 #include <abut/collide/spans.hpp>
+#include <abut/collide/start_contacts.hpp>
 #include <abut/collide/sweep.hpp>
 #include <abut/collide/touching_bodies.hpp>
 #include <abut/collide/validate.hpp>
