@@ -63,6 +63,10 @@ def cost_peers(results):
     ours, theirs = (f"cloth-ball/vertex_face/{name}" for name in ("abut", "ACCD"))
     add("when a vertex meets a face", "IPC Toolkit", times.get(ours, "ns") / times.get(theirs, "ns"),
         *(f"{whole(times.get(row, 'phantom'))} that do not, {times.get(row, 'early'):.0e} early" for row in (ours, theirs)), "results/impact-times.md")
+    ways = results["cpu/turning"]
+    ours, theirs = "short/abut", "short/fcl_naive"
+    add("motions of a robot that turns", "FCL", ways.get(ours) / ways.get(theirs), f"{whole(ways.get(ours, 'missed'))} of 1,000",
+        f"{whole(ways.get(theirs, 'phantom'))} that do not meet, {whole(ways.get(theirs, 'late'))} late", "turning.md#what-it-costs")
     return table(["work", "beside", "time of `abut` over it", "`abut` gets wrong", "it gets wrong"], rows, 2)
 
 
