@@ -198,7 +198,7 @@ void check_sweep_scales(const Policy& on) {
 template <class Policy>
 void check_start_contacts(const Policy& on) {
     const sweep_scene scene(60, 200);
-    const triangle_soup<float> soup = copy_to(on, triangle_soup<float>(scene.triangles));
+    const auto soup = copy_to(on, triangle_soup<float>(scene.triangles));
     const auto tree = make_bvh(on, soup);
     const shapes<swept<sphere<float>>> movers(scene.balls);
     const auto found = sweep(on, tree, movers);
@@ -220,7 +220,7 @@ void check_start_contacts(const Policy& on) {
     CHECK(touching < hits.size());
     // What is touched so soon that the time is rounded to 0 is no contact at the start.
     const float tiny = std::numeric_limits<float>::denorm_min();
-    const triangle_soup<float> floor = copy_to(on, triangle_soup<float>{{{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}}});
+    const auto floor = copy_to(on, triangle_soup<float>{{{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}}});
     const auto fast_one = moving(sphere<float>{{0, 0, tiny}, 0}, vec3<float>{0, 0, -16});
     const auto soon = sweep(on, floor, fast_one);
     CHECK((to_host(soon)[0].id == 0 && to_host(soon)[0].t == 0));

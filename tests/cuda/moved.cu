@@ -11,3 +11,5 @@ TEST_CASE("sets and indices that go: cuda") {
     abut::test::check_moved_sets<false>(on, abut::spheres<float>(a.balls), abut::triangle_soup<float>(b.triangles),
                                         abut::vec3<float>{4, -3, 5});
 }
+
+TEST_CASE("contacts at the start of a sweep: cuda") { abut::test::check_start_contacts(abut::cuda{}); }

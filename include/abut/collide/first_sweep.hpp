@@ -49,6 +49,10 @@ struct offer_first_touch {
     ABUT_HD void operator()(std::uint32_t mover, std::uint32_t met, Best& best) const {
         if (!is_wanted_by_row<GoesB>(both, mover, met)) return;
         const std::uint64_t key = pack_row<GoesB>(both, mover, met);
+        // Nothing is sooner than the start. Threads of a device do not know whose the bound is.
+        if constexpr (requires { best.known(); }) {
+            if (!(best.known().value > 0) && best.known().key <= key) return;
+        }
         if constexpr (GoesB) {
             offer(both.b[mover], both.a[met], key, best);
         } else {
