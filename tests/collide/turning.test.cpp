@@ -65,6 +65,32 @@ TEST_CASE("first_meeting: sets, indices and single shapes, in motion and at rest
               .has_value());
 }
 
+TEST_CASE("any_each: balls that pass each other where long ways are looked at first") {
+    const serial on;
+    const double tolerance = 1e-3;
+    const auto ball = make_bvh(on, spheres<double>({{{0, 0, 0}, 1}}));
+    using index = std::remove_const_t<decltype(ball)>;
+    const auto at = [](double x) { return rigid<double>{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {x, 0, 0}}; };
+    // Aside in y and z: the boxes around them meet.
+    const auto aside = [](double r) { return rigid<double>{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 0.8 * r, 0.6 * r}}; };
+    std::vector<moving_pair<index>> list;
+    std::vector<double> gaps;
+    // Nearest at the end, at the middle, and at a quarter and three quarters of the way.
+    for (const double from : {-32.0, -16.0, -8.0, -24.0}) {
+        for (const double gap : {-1e-6, 0.25, 0.75, 1.25, 2.0, 3.5, 8.0}) {  // in tolerances
+            list.push_back({moving(posed(ball, at(from)), posed(ball, at(from + 32))), posed(ball, aside(2 + gap * tolerance))});
+            gaps.push_back(gap);
+        }
+    }
+    const auto met = to_host(any_each(on, list, {tolerance}));
+    const auto found = to_host(first_meetings(on, list, {tolerance}));
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        INFO(i << ", " << gaps[i]);
+        CHECK((met[i] != 0) == (found[i].time <= 1));
+        if (gaps[i] < 0 || gaps[i] > 1) CHECK((met[i] != 0) == (gaps[i] < 0));
+    }
+}
+
 TEST_CASE("bodies that turn: what is refused") {
     const serial on;
     const triangle_soup<float> one{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}, other{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
