@@ -9,7 +9,7 @@ from report_predicates import from_tests
 from report_queries import BUILDERS, LABELS, SIZES, SPHERES, TRIANGLES, of_size
 
 
-# --- README -----------------------------------------------------------------------------------------------------------------
+# --- README, docs/costs.md --------------------------------------------------------------------------------------------------
 
 def paragraph(text):
     return textwrap.wrap(" ".join(text.split()), 125, break_long_words=False, break_on_hyphens=False) + [""]
@@ -17,6 +17,57 @@ def paragraph(text):
 
 def machine(r):
     return r.context["device"] if "device" in r.context else f"{r.context['machine']}, one core, {r.context['compiler'].split(' (')[0]}"
+
+
+@in_table("cost-peers")
+def cost_peers(results):
+    """README's table: of each peer one kind of work, how long abut takes over it, and what either gets wrong."""
+    rows = []
+
+    def add(work, peer, over, ours, theirs, link):
+        rows.append([f"[{work}](docs/{link})", peer, f"{over:.2f}", ours, theirs])
+
+    def wrong(r, name, of):
+        return f"{whole(r.get(name, 'wrong'))} of {whole(of)}"
+
+    pairs = results["cpu/peers"]
+    for pair, work in (("box_box", "two turned boxes: do they touch"), ("hull66_hull66", "two hulls of 66 points: do they touch")):
+        ties = [wrong(pairs, f"ties/{pair}/{name}", pairs.get(f"ties/{pair}/abut", "of")) + " that just touch or just do not" for name in ("abut", "Coal")]
+        add(work, "Coal", pairs.get(f"boolean/{pair}/Coal", "over"), *ties, "results/peers.md")
+    states = {name: pairs.get(f"states/mesh/{name}", "ns") for name in ("abut", "Coal_boxes", "Coal_tree")}
+    best = min(("Coal_boxes", "Coal_tree"), key=states.get)
+    add("an arm of eight links and a mesh", "Coal", states["abut"] / states[best], *(wrong(pairs, f"states/mesh/{name}", pairs.get("states/mesh/abut", "of"))
+                                                                                   for name in ("abut", best)), "results/peers.md")
+    triangles = results["cpu/triangles"]
+    for peer, name in (("cgal", "CGAL's exact predicates"), ("fcl", "FCL")):
+        add("two triangles: do they touch", name, triangles.get("pair/filtered/double/20") / triangles.get(f"pair/{peer}/double/20"), "exact",
+            "exact" if peer == "cgal" else "not counted", "costs.md")
+    distance = results["cpu/distance"]
+    add("distance of two scans that are apart", "FCL", distance.get("distance/scan/apart/oriented") / distance.get("distance/scan/apart/fcl"),
+        "not counted", "not counted", "benchmarks.md#distances")
+    rays = results["cpu/raycast"]
+    for peer, name in (("embree", "Embree"), ("tinybvh", "tinybvh")):
+        at = [f"raycast/coherent/{of}/serial" for of in ("wide_sah/filtered", f"{peer}/float")]
+        add("first hits of a camera's rays", name, rays.get(at[0]) / rays.get(at[1]), *(wrong(rays, row, rays.get(row, "rays")) for row in at),
+            "benchmarks.md#rays")
+    near = results["cpu/nearest"]
+    for peer, name in (("fcpw", "FCPW"), ("embree", "Embree")):
+        row = f"nearest/{peer}/serial/100000"
+        points = whole(near.get(row, "points"))
+        add("nearest triangles of points far away", name, near.get("nearest/oriented_sah/serial/100000") / near.get(row), f"0 of {points}",
+            f"{whole(near.get(row, 'wrong'))} of {points}", "benchmarks.md#nearest-points")
+    winding = results["cpu/winding"]
+    row = "armadillo_345944/libigl/2"
+    add("winding numbers, as near to the true ones", "libigl", winding.get(row, "like"), *(f"{winding.get(row, 'rms'):.0e} off",) * 2, "results/winding.md")
+    times = results["cpu/impact_times"]
+    ours, theirs = (f"cloth-ball/vertex_face/{name}" for name in ("abut", "ACCD"))
+    add("when a vertex meets a face", "IPC Toolkit", times.get(ours, "ns") / times.get(theirs, "ns"),
+        *(f"{whole(times.get(row, 'phantom'))} that do not, {times.get(row, 'early'):.0e} early" for row in (ours, theirs)), "results/impact-times.md")
+    ways = results["cpu/turning"]
+    ours, theirs = "short/abut", "short/fcl_naive"
+    add("motions of a robot that turns", "FCL", ways.get(ours) / ways.get(theirs), f"{whole(ways.get(ours, 'missed'))} of 1,000",
+        f"{whole(ways.get(theirs, 'phantom'))} that do not meet, {whole(ways.get(theirs, 'late'))} late", "turning.md#what-it-costs")
+    return table(["work", "beside", "time of `abut` over it", "`abut` gets wrong", "it gets wrong"], rows, 2)
 
 
 @in_table("cost-spheres")
@@ -83,7 +134,7 @@ def cost_wrong(results):
     for page, what in (("sphere-triangle.md", "spheres and triangles"), ("triangle-triangle.md", "two triangles")):
         rows = [row for both in from_tests(page).values() for row in both.values()]
         wrong, pairs = sum(int(r["wrong"]) for r in rows), sum(int(r["pairs"]) for r in rows)
-        parts.append(f"{wrong} of {pairs / 1e6:,.0f} million pairs of {what} ([{len(rows) // 2} families](docs/results/{page}))")
+        parts.append(f"{wrong} of {pairs / 1e6:,.0f} million pairs of {what} ([{len(rows) // 2} families](results/{page}))")
     r = results["cpu/trade"]
     at = [r.get(f"triangle_triangle/touching/{s}/fast", "wrong_per_million") for s in SCALARS]
     return paragraph(f"""**Wrong answers.** Pairs were built to break the arithmetic, in float and double, and compared with rational numbers.

@@ -92,3 +92,18 @@ def mixed_bodies(results):
                          shown(of("ms")), quotient(ours, of("ms")), whole(of("touching")), whole(of("wrong"))])
     head = ["1,000 bodies of five kinds", "", "ms", "abut / it", "pairs that touch", "wrong"]
     return table(head, rows, 2) + made_on(r, f". {r.context['peers']}" if "peers" in r.context else "")
+
+
+@in_table("turning")
+def turning(results):
+    r = results["cpu/turning"]
+    kinds = {"short": "edges of a road map: 300 long, begin free", "long": "to any pose, begin free", "anywhere": "from any pose to any other"}
+    rows = []
+    for kind, title in kinds.items():
+        def of(library, key):
+            return r.get(f"{kind}/{library}", key)
+        rows.append([title, shown(of("abut", "ms")), shown(of("abut_any", "ms")), shown(of("fcl_naive", "ms")), shown(of("fcl_advance", "ms")),
+                     whole(of("abut", "certain")), *(f"{whole(of(name, 'missed'))}; {whole(of(name, 'phantom') or 0)}"
+                                                     for name in ("abut", "fcl_naive", "fcl_advance"))])
+    return table(["motions", "`first_meetings`, ms", "`any_each`, ms", "FCL, ten poses, ms", "FCL, advancement, ms", "meet for certain",
+                  "`abut` misses; adds", "FCL, ten poses", "FCL, advancement"], rows) + made_on(r)

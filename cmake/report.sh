@@ -68,6 +68,7 @@ cpu hulls bench_hulls $G $I
 cpu peers bench_peers --json={}
 cpu winding bench_winding @D@/meshes --json={}
 cpu impact_times bench_impact_times @D@/ccd --json={}
+cpu turning bench_turning @D@ --json={}
 cpu mixed_bodies bench_mixed_bodies $G $I
 cpu solids bench_solids @D@/meshes/armadillo_2766.ply @D@/meshes/armadillo_27674.ply @D@/meshes/armadillo_345944.ply --json={}
 cpu patches bench_patches @D@/meshes/cow.obj @D@/meshes/fandisk.ply @D@/meshes/armadillo_2766.ply --json={}

@@ -19,6 +19,7 @@
 #include <abut/collide/curves.hpp>
 #include <abut/collide/distance.hpp>
 #include <abut/collide/first_impact.hpp>
+#include <abut/collide/first_sweep.hpp>
 #include <abut/collide/impact_details.hpp>
 #include <abut/collide/impacts.hpp>
 #include <abut/collide/hausdorff.hpp>
@@ -42,8 +43,10 @@
 #include <abut/collide/safe_step.hpp>
 #include <abut/collide/self_pairs.hpp>
 #include <abut/collide/spans.hpp>
+#include <abut/collide/start_contacts.hpp>
 #include <abut/collide/sweep.hpp>
 #include <abut/collide/touching_bodies.hpp>
+#include <abut/collide/turning.hpp>
 #include <abut/collide/validate.hpp>
 #include <abut/collide/welded_near.hpp>
 #include <abut/collide/winding_number.hpp>

@@ -50,6 +50,25 @@ TEST_CASE("bodies of several kinds: lists in another order, lists of one kind, a
     CHECK((parts.size() == 7 && parts.first(1) == 3 && parts.part<1>().size() == 4));
 }
 
+TEST_CASE("bodies of several kinds: filters that are const, and capture") {
+    const serial on;
+    const auto all = random_mixed_scene<float>(on, 7, 1.0, {5, 6, 7}).made(on);
+    const std::vector<std::uint32_t> allowed{3, 11};  // a table of the caller's
+    const auto asked = [&allowed](std::uint32_t a, std::uint32_t b) {
+        return std::find(allowed.begin(), allowed.end(), a) == allowed.end() && std::find(allowed.begin(), allowed.end(), b) == allowed.end();
+    };
+    const auto shapes = [&allowed](const body_pair& p) { return p.a != allowed[0]; };
+    const body_options<decltype(shapes), schedule::shared_list, decltype(asked)> options{.filter = shapes, .bodies = asked};
+    std::vector<body_pair> expected;
+    for (const body_pair& p : to_host(pairs(on, all))) {
+        if (asked(p.body_a, p.body_b) && shapes(p)) expected.push_back(p);
+    }
+    CHECK(expected.size() > 10);
+    CHECK(expected.size() < count(on, all));
+    CHECK((to_host(pairs(on, all, options)) == expected));
+    CHECK(count(on, all, options) == expected.size());
+}
+
 TEST_CASE("bodies of several kinds: what is wrong is named") {
     const serial on;
     auto scene = random_mixed_scene<float>(on, 7, 1.0, {2, 3, 4});

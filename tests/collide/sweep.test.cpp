@@ -15,6 +15,8 @@ TEMPLATE_TEST_CASE("sweep: serial", "", float, double) {
 
 TEST_CASE("sweep: openmp on 3 threads") { test::check_sweep_scales<float>(openmp{3}); }
 
+TEST_CASE("sweep: contacts at the start") { test::check_start_contacts(serial{}); }
+
 TEST_CASE("sweep: hulls, which refer to their points, go and are met") {
     const serial on;
     const std::vector<vec3<float>> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include <abut/abut.hpp>
@@ -190,6 +191,45 @@ void check_sweep_scales(const Policy& on) {
         const auto expected = sweeps_by_definition(soup.view(), movers);
         CHECK(std::count_if(expected.begin(), expected.end(), [](const auto& h) { return h.id != no_id; }) > 0);
         check_sweep(on, make_bvh(on, soup), movers, expected);
+    }
+}
+
+/// Balls of a lattice that begin in contact, and others: contacts are those of `contacts` for what the sweep found at 0.
+template <class Policy>
+void check_start_contacts(const Policy& on) {
+    const sweep_scene scene(60, 200);
+    const auto soup = copy_to(on, triangle_soup<float>(scene.triangles));
+    const auto tree = make_bvh(on, soup);
+    const shapes<swept<sphere<float>>> movers(scene.balls);
+    const auto found = sweep(on, tree, movers);
+    const auto hits = to_host(found);
+    const auto contacts_at_start = to_host(start_contacts(on, found, tree, movers));
+    REQUIRE(contacts_at_start.size() == hits.size());
+    std::size_t touching = 0;
+    for (std::uint32_t i = 0; i < hits.size(); ++i) {
+        contact<float> expected{i, no_id, {0, 0, 0}, {0, 0, 0}, 0};
+        for (std::uint32_t k = 0; k < scene.triangles.size() && expected.b == no_id; ++k) {
+            const auto c = contact_of<exact>(scene.balls[i].start, scene.triangles[k]);
+            if (c) expected = {i, k, c->point, c->normal, c->depth};
+        }
+        touching += expected.b != no_id ? 1 : 0;
+        CAPTURE(i, hits[i].id, hits[i].t);
+        CHECK(contacts_at_start[i] == expected);
+    }
+    CHECK(touching > 10);
+    CHECK(touching < hits.size());
+    // What is touched so soon that the time is rounded to 0 is no contact at the start.
+    const float tiny = std::numeric_limits<float>::denorm_min();
+    const auto floor = copy_to(on, triangle_soup<float>{{{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}}});
+    const auto fast_one = moving(sphere<float>{{0, 0, tiny}, 0}, vec3<float>{0, 0, -16});
+    const auto soon = sweep(on, floor, fast_one);
+    CHECK((to_host(soon)[0].id == 0 && to_host(soon)[0].t == 0));
+    CHECK(to_host(start_contacts(on, soon, floor, fast_one))[0].b == no_id);
+    try {
+        (void)start_contacts(on, found, floor, movers);
+        FAIL_CHECK("hits of other shapes were taken");
+    } catch (const error& e) {
+        CHECK(std::string(e.what()).find("of none of the 1 shapes") != std::string::npos);
     }
 }
 

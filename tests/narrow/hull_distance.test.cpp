@@ -15,6 +15,7 @@
 #include "support/hull_pairs.hpp"
 #include "support/samples.hpp"
 #include "support/scenes.hpp"
+#include "support/sweep_oracle.hpp"
 
 // The distance of convex hulls against the definition, in 300 bits: hulls that do not meet are nearest to each other at a
 // feature of their differences, which is one of them, a line between two, or a triangle of three. All are tried.
@@ -255,6 +256,50 @@ TEMPLATE_TEST_CASE("distance of hulls: the same as where it is known whether the
     }
     CHECK(near > 100);
     CHECK(touching > 100);
+}
+
+TEMPLATE_TEST_CASE("distance of hulls: eight points need not be a box's corners", "", float, double) {
+    using T = TestType;
+    // Boxes are measured in closed form, by the order of their corners. Here they are askew, from a little to no box at all.
+    constexpr double bound = 0x1p-46 + 4 * static_cast<double>(unit_roundoff<T>);  // as plain_box.hpp has it
+    std::uint64_t plain = 0, left = 0;
+    for (std::uint64_t k = 0; k < test::sample_count() / 2; ++k) {
+        test::draws d(test::sample_seed + 9, 1, k);
+        // Every other one of points at random, often nearly in a plane.
+        const bool is_box = k % 2 == 0;
+        const double askew = is_box ? std::ldexp(1.0, -static_cast<int>(k % 24)) : 1, radius = d.uniform(0, 0.25),
+                     flat = k % 4 == 1 ? std::ldexp(1.0, -static_cast<int>(k % 20)) : 1;
+        const vec3<double> half = is_box ? vec3<double>{d.uniform(0.25, 1), d.uniform(0.25, 1), d.uniform(0.25, 1)} : vec3<double>{0, 0, 0};
+        const auto around = [&](double size) {
+            const double x = d.uniform(-size, size), y = d.uniform(-size, size);
+            return vec3<double>{x, y, d.uniform(-size, size)};
+        };
+        vec3<T> corner[8];
+        for (int i = 0; i < 8; ++i) {
+            const vec3<double> off = around(askew);
+            corner[i] = {static_cast<T>(off.x + ((i & 1) != 0 ? half.x : -half.x)), static_cast<T>(off.y + ((i & 2) != 0 ? half.y : -half.y)),
+                         static_cast<T>(flat * off.z + ((i & 4) != 0 ? half.z : -half.z))};
+        }
+        const vec3<double> at = around(2.5);
+        const sphere<T> ball{{static_cast<T>(at.x), static_cast<T>(at.y), static_cast<T>(at.z)}, static_cast<T>(radius)};
+        const hull<T> h{corner, 8};
+        const detail::plain_pair<hull<T>, sphere<T>> first(h, ball);
+        if (first.touch() != verdict::no) {
+            ++left;
+            continue;
+        }
+        ++plain;
+        INFO(k);
+        std::vector<test::rational_point> seen;
+        for (const vec3<T>& p : corner) seen.push_back(test::difference(test::to_rational(p), test::to_rational(ball.center)));
+        const double truth = std::sqrt(test::least_square(seen).template convert_to<double>()) - static_cast<double>(ball.radius);
+        const auto found = distance(h, ball);
+        CHECK(std::fabs(static_cast<double>(found.distance) - truth) <= bound);
+        const vec3<double> way = detail::widened(found.point_b) - detail::widened(found.point_a);
+        CHECK(std::fabs(std::sqrt(dot(way, way)) - truth) <= 4 * bound);
+    }
+    CHECK(plain > 500);
+    CHECK(left > 100);
 }
 
 TEMPLATE_TEST_CASE("distance of hulls: a far corner hides no meeting", "", float, double) {

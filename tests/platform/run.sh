@@ -138,7 +138,9 @@ for name in $chosen; do
         line "$name" "$compiler" "$options" - - "skipped: $reason"
         continue
     fi
-    if [ -x "$root/usr/bin/$compiler" ]; then compiler=$root/usr/bin/$compiler; fi
+    # What is unpacked has its own libraries beside it, and is found without ldconfig: the assembler's, for one.
+    libraries=''
+    if [ -x "$root/usr/bin/$compiler" ]; then compiler=$root/usr/bin/$compiler libraries=$root/usr/lib/$(uname -m)-linux-gnu; fi
     if [ "$runner" = wine ]; then
         # Debian calls it by one of these names.
         for runner in wine64 wine64-stable wine /usr/lib/wine/wine64; do ! command -v $runner >/dev/null 2>&1 || break; done
@@ -159,12 +161,12 @@ for name in $chosen; do
     start=$(date +%s.%N)
     # Options for the linker go to the compiler too, which may say that it has no use for them.
     # shellcheck disable=SC2086
-    if ! printf '%s\n' $here/*.cpp | xargs -P "$jobs" -I{} sh -c '
+    if ! printf '%s\n' $here/*.cpp | LD_LIBRARY_PATH=$libraries${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH} xargs -P "$jobs" -I{} sh -c '
             source=$1 tree=$2 compiler=$3
             shift 3
             exec nice -n 10 "$compiler" "$@" -c "$source" -o "$tree/$(basename "$source" .cpp).o"' \
             - {} "$tree" "$compiler" $options -Iinclude ${extra%% -nostdlib++*} >"$tree/log" 2>&1 ||
-        ! "$compiler" $options "$tree"/*.o ${extra:+-nostdlib++ ${extra#*-nostdlib++}} -o "$tree/platform.exe" >>"$tree/log" 2>&1; then
+        ! LD_LIBRARY_PATH=$libraries${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH} "$compiler" $options "$tree"/*.o ${extra:+-nostdlib++ ${extra#*-nostdlib++}} -o "$tree/platform.exe" >>"$tree/log" 2>&1; then
         bad=$((bad + 1))
         line "$name" "${compiler##*/} $version" "$options" "$(seconds "$start")" - 'does not compile'
         grep -m 3 -E 'error|undefined' "$tree/log"

@@ -53,6 +53,10 @@ NAMES = {
     "collide/impact_index.hpp": STEP,
     "collide/first_impact.hpp": STEP,
     "collide/safe_step.hpp": STEP,
+    "shape/moved.hpp": "const auto index = abut::make_bvh(on, mesh);",
+    "collide/first_sweep.hpp": "const auto index = abut::make_bvh(on, other);",
+    "collide/start_contacts.hpp": "const auto index = abut::make_bvh(on, mesh); static const auto push_out = [](auto&&...) {};"
+                                  "const abut::shapes<abut::swept<abut::sphere<float>>> movers;",
     "narrow/impact_detail.hpp": "const abut::motion<abut::vec3<float>> vertex{};"
                                 "const abut::motion<abut::triangle<float>> face{};",
     "collide/list_distance.hpp": GEAR + "std::vector<abut::posed_pair<decltype(gear)>> list; float clearance = 9;",

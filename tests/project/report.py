@@ -44,7 +44,7 @@ def append(page, lines):
 
 MUTATIONS = {
     "a digit of a table": lambda r: change_digit(r / "docs" / "benchmarks.md", "trade-cpu"),
-    "a digit of README": lambda r: change_digit(r / "README.md", "cost-spheres"),
+    "a digit of README": lambda r: change_digit(r / "README.md", "cost-peers"),
     "a table that no program writes": lambda r: append(r / "docs" / "building.md",
                                                        "\n| what | ms |\n| --- | ---: |\n| a query | 1.25 |\n"),
     "a measurement in a sentence": lambda r: append(r / "docs" / "building.md", "\nA query takes 1.25\nms here.\n"),

@@ -284,23 +284,6 @@ struct sight_of_list {
         return near_one_box<near_boxes<T>, T>{{}, query};
     }
 };
-/// All of n shapes, one after another, whose boxes are near enough.
-template <shape_view Shapes>
-struct walk_all_boxes {
-    Shapes shapes;
-    ABUT_CALLS_ANY
-    template <class Reach, class Best, class Visitor>
-    ABUT_HD void operator()(Reach& reach, const Best& best, const Visitor& visitor) const {
-        double bound = infinity<double>;
-        tighten(reach, best, bound);
-        for (std::size_t i = 0; i < shapes.size(); ++i) {
-            if (!reach(bounds(shapes[i]))) continue;
-            visitor(static_cast<std::uint32_t>(i));
-            tighten(reach, best, bound);
-        }
-    }
-};
-
 /// How many levels down two trees are dealt out: so that each of `concurrency` threads finds some.
 inline int depth_of_seeds(int concurrency) { return concurrency <= 1 ? 0 : concurrency <= 16 ? 5 : 6; }
 

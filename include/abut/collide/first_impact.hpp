@@ -383,6 +383,7 @@ auto ask_motion(const Policy& on, const ask_first_impact<A, Within>& question, c
 ///
 ///     if (const auto first = abut::first_impact(on, step, ball)) stop_at(first->time);
 template <motion_arithmetic A = filtered, executor On, class X, class Y, std::same_as<impact_fronts>... Fronts>
+    requires(!detail::goes_on_ways<X> && !detail::goes_on_ways<Y>)
 [[nodiscard]] auto first_impact(const On& on, const X& a, const Y& b, const impact_options& options = {},
                                 Fronts&... fronts) {
     return ask_motion(on, detail::ask_first_impact<A, false>{}, a, b, options, detail::fronts_of(fronts)...);

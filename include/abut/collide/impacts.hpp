@@ -53,7 +53,7 @@ namespace abut {
 /// - `capacity_error`: more than 2^31 features of a kind, and as of `edges`.
 /// - `std::bad_alloc`, `cuda_error`.
 ///
-/// Poses are not taken: that does not compile.
+/// Poses are not taken by these: that does not compile. Bodies that turn are those of `first_meeting`.
 ///
 /// @par Synchronisation
 /// Each call returns when its answer is complete; under `cuda` it waits for the policy's stream, several times.

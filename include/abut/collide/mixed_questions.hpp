@@ -31,6 +31,15 @@ struct wants_bodies_of_parts {
     ABUT_CALLS_ANY
     ABUT_HD bool operator()(std::uint32_t a, std::uint32_t b) const { return wanted(names.first_a + a, names.first_b + b); }
 };
+/// A filter of two parts. It is made in one go: a lambda that captures, or is const, cannot be assigned.
+template <class To, class Filter>
+To made_for_part([[maybe_unused]] const Filter& filter, [[maybe_unused]] const bodies_of_parts& names) {
+    if constexpr (std::same_as<To, keep_all>) {
+        return {};
+    } else {
+        return {filter, names};
+    }
+}
 /// The same options, whose filters are told of bodies of two parts. All members are named here, so that none is lost.
 template <class Filter, schedule Schedule, class Bodies>
 auto options_of_part(const body_options<Filter, Schedule, Bodies>& options, const bodies_of_parts& names) {
@@ -38,10 +47,8 @@ auto options_of_part(const body_options<Filter, Schedule, Bodies>& options, cons
     using filter = std::conditional_t<all_shapes, keep_all, call_of_part<Filter, bodies_of_parts>>;
     using wanted = std::conditional_t<all_bodies, keep_all, wants_bodies_of_parts<Bodies>>;
     const auto& [sorted, of_shapes, most_pairs, discard_sideways, scheduling, of_bodies] = options;
-    body_options<filter, Schedule, wanted> here{sorted, {}, most_pairs, discard_sideways, scheduling, {}};
-    if constexpr (!all_shapes) here.filter = {of_shapes, names};
-    if constexpr (!all_bodies) here.bodies = {of_bodies, names};
-    return here;
+    return body_options<filter, Schedule, wanted>{
+        sorted, made_for_part<filter>(of_shapes, names), most_pairs, discard_sideways, scheduling, made_for_part<wanted>(of_bodies, names)};
 }
 
 /// A visitor of parts, one after another: when it has stopped, no other part is looked at.

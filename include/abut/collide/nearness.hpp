@@ -7,7 +7,9 @@
 #include <concepts>
 
 #include <abut/arithmetic/error_free.hpp>
+#include <abut/collide/operand.hpp>
 #include <abut/shape/bounds.hpp>
+#include <abut/shape/moved.hpp>
 #include <abut/shape/reach.hpp>
 #include <abut/shape/rigid.hpp>
 #include <abut/traverse/pair_walk.hpp>
@@ -77,14 +79,48 @@ auto placement_of(const Operand& x) {
     }
 }
 
+/// By how much boxes of an operand that goes along a way grow, in its frame.
+template <class Operand, scalar T>
+box_growth<T> growth_of(const moved_operand<Operand, T>& x) {
+    if constexpr (Operand::is_posed) {
+        return box_growth<T>::in_frame(x.operand.pose, x.way);
+    } else {
+        return box_growth<T>::by(x.way);
+    }
+}
+template <class Operand, scalar T>
+auto placement_of(const moved_operand<Operand, T>& x) {
+    auto at = placement_of(x.operand);
+    at.around = growth_of(x)(at.around);
+    return at;
+}
+
 /// How boxes of two operands' trees are compared.
 template <class A, class B>
-auto box_overlap(const A& a, const B& b) {
+auto box_overlap_in_frames(const A& a, const B& b) {
     if constexpr (A::is_posed || B::is_posed) {
         const auto at_a = placement_of(a), at_b = placement_of(b);
         return two_frames{make_relative_pose(at_a.pose, at_a.around, at_b.pose, at_b.around)};
     } else {
         return same_frame{};
+    }
+}
+template <class A, class B>
+auto box_overlap(const A& a, const B& b) {
+    auto frames = box_overlap_in_frames(a, b);
+    if constexpr (is_moved_operand<A> || is_moved_operand<B>) {
+        // Boxes that have grown are rounded once more.
+        if constexpr (requires { frames.b_to_a; }) frames.b_to_a.slack *= 2;
+        const auto grown = [&] {
+            if constexpr (is_moved_operand<A>) {
+                return growth_of(a);
+            } else {
+                return growth_of(b);
+            }
+        }();
+        return boxes_on_way<is_moved_operand<A>, decltype(frames), decltype(grown.down.x + 0)>{frames, grown};
+    } else {
+        return frames;
     }
 }
 

@@ -7,16 +7,20 @@
 #include <concepts>
 #include <cstddef>
 #include <memory>
+#include <string>
 #include <type_traits>
 #include <utility>
 
+#include <abut/error.hpp>
 #include <abut/index/bvh.hpp>
 #include <abut/index/grid.hpp>
 #include <abut/index/least_ids.hpp>
 #include <abut/index/operand.hpp>
+#include <abut/shape/moved.hpp>
 #include <abut/shape/posed.hpp>
 #include <abut/traverse/bvh_walk.hpp>
 #include <abut/traverse/grid_walk.hpp>
+#include <abut/traverse/moved_walk.hpp>
 #include <abut/traverse/posed_walk.hpp>
 
 namespace abut::detail {
@@ -110,6 +114,22 @@ struct posed_operand {
     }
 };
 
+/// An operand that goes along a way. Shapes are put on it as they are read, and boxes grow where they are looked at.
+template <class Operand, scalar T>
+struct moved_operand {
+    static constexpr bool is_indexed = Operand::is_indexed, has_tree = Operand::has_tree, is_posed = Operand::is_posed;
+    Operand operand;
+    vec3<T> way;
+
+    [[nodiscard]] auto shapes() const { return moved_view<decltype(operand.shapes())>{operand.shapes(), way}; }
+    [[nodiscard]] auto tree() const { return operand.tree(); }
+    [[nodiscard]] auto walk() const { return moved_walk<decltype(operand.walk())>{operand.walk(), way}; }
+};
+template <class X>
+inline constexpr bool is_moved_operand = false;
+template <class Operand, scalar T>
+inline constexpr bool is_moved_operand<moved_operand<Operand, T>> = true;
+
 /// How an operand's shapes are seen: as they are.
 struct as_they_are {};
 /// An operand whose shapes are seen in another way: `Sight` makes of a view of them one of as many shapes, with the same
@@ -140,15 +160,28 @@ template <class Object>
 struct shape_of_argument<posed_object<Object>> {
     using type = placed_shape<typename shape_of_object<Object>::type>;
 };
+template <class Object>
+struct shape_of_argument<moved_object<Object>> {
+    using type = swept<typename shape_of_argument<Object>::type>;
+};
 template <operand X>
 struct shape_of_argument<X> {
     using type = typename decltype(std::declval<const X&>().shapes())::shape_type;
 };
 
+/// Whether the shapes of an argument go along ways.
+template <class X>
+inline constexpr bool goes_on_ways = false;
+template <class X>
+    requires is_swept<typename shape_of_argument<X>::type>
+inline constexpr bool goes_on_ways<X> = true;
+
 /// Whether make_operand takes it.
 template <class Policy, class X>
 consteval bool can_be_asked() {
     if constexpr (is_posed<X>) {
+        return can_be_asked<Policy, decltype(X::object)>();
+    } else if constexpr (is_moved<X>) {
         return can_be_asked<Policy, decltype(X::object)>();
     } else if constexpr (is_index<X>) {
         return lies_there<Policy, X>();
@@ -185,6 +218,13 @@ auto make_operand(const Policy& on, const X& x, const char* function) {
         }
         if (!surely_finite) check(on, placed.shapes(), function);
         return placed;
+    } else if constexpr (is_moved<X>) {
+        if (!is_valid(x.way)) {
+            const shape_flaw flaw = flaw_of(x.way);
+            throw invalid_geometry(function, "way", 0, std::string(flaw.of) + flaw.what, flaw.value);
+        }
+        using operand_type = decltype(make_operand<Input>(on, x.object, function));
+        return moved_operand<operand_type, typename X::scalar_type>{make_operand<Input>(on, x.object, function), x.way};
     } else if constexpr (is_index<X>) {
         require_same_device(on, x, function);
         return indexed_operand<X>{x};

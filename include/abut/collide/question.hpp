@@ -70,8 +70,12 @@ struct touching : relation {
     }
     template <class S, class U>
     static consteval bool decides() {
-        static_assert(decidable<S, U>, "abut: queries between sets of these two shapes are not supported");
-        return decidable<S, U>;
+        constexpr bool both_go = is_swept<S> && is_swept<U>;
+        static_assert(!both_go, "abut: shapes of one argument go along ways, and those of the other stay: the difference of two "
+                                "ways need be no number");
+        constexpr bool is = both_go || decidable<S, U>;
+        static_assert(is, "abut: queries between sets of these two shapes are not supported");
+        return is && !both_go;
     }
 };
 

@@ -246,6 +246,8 @@ template <class Set, memory_space Space>
 inline constexpr bool is_grid<grid<Set, Space>> = true;
 template <class Object>
 inline constexpr bool is_grid<posed_object<Object>> = is_grid<Object>;
+template <class Object>
+inline constexpr bool is_grid<moved_object<Object>> = is_grid<Object>;
 
 template <class S>
 inline constexpr bool is_line = std::same_as<S, ray<scalar_type_of<S>>> || std::same_as<S, segment<scalar_type_of<S>>>;

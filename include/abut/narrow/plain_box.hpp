@@ -33,7 +33,7 @@ namespace abut::detail {
 template <scalar T>
 struct plain_box_feature {
     plain_place<T> nearest{};
-    vec3<double> way{}, ahead{};  ///< from there to the point; of any length, along it, but orthogonal to the feature
+    vec3<double> way{}, ahead{};  ///< from there to the point; of any length, along it, but orthogonal to an edge or a face
     double size = 0;
     bool is_good = false;
 
@@ -52,8 +52,9 @@ struct plain_box_feature {
             const double per_square = 1 / plain_dot(edge, edge);
             const double part = into_unit_of_doubles(plain_product(plain_dot(way, edge), per_square));
             nearest.along = plain_times(part, edge);
-            way = plain_step(way, -part, edge);
-            ahead = plain_step(way, -plain_product(plain_dot(way, edge), per_square), edge);
+            way = ahead = plain_step(way, -part, edge);
+            // At an end of the edge the way is not orthogonal to that, of hulls that are no boxes.
+            if (part > 0 && part < 1) ahead = plain_step(way, -plain_product(plain_dot(way, edge), per_square), edge);
             is_good = box.has_all_behind(corner);
         } else {
             // A triangle of one of the face's corners and both beside it, or the other one.

@@ -8,11 +8,13 @@
 #include <cmath>
 #include <concepts>
 
+#include <abut/arithmetic/error_free.hpp>
 #include <abut/arithmetic/limits.hpp>
 #include <abut/arithmetic/magnitude.hpp>
 #include <abut/shape/aabb.hpp>
 #include <abut/shape/obb.hpp>
 #include <abut/shape/point_reach.hpp>
+#include <abut/shape/ray_reach.hpp>
 #include <abut/shape/relative_pose.hpp>
 #include <abut/shape/rigid.hpp>
 
@@ -207,6 +209,28 @@ private:
     [[nodiscard]] ABUT_HD vec3<T> magnitude_in_a(const vec3<T>& v) const {
         const vec3<T>(&m)[3] = b_to_a.magnitude;
         return {dot(m[0], v), dot(m[1], v), dot(m[2], v)};
+    }
+};
+
+/// Boxes of one frame, of which the first goes along a way: by when it meets the second one at the soonest. The differences of
+/// points of both are a box, into which the way leads from the origin.
+template <scalar T>
+struct boxes_that_meet {
+    ray_reach<T> way;
+
+    ABUT_HD explicit boxes_that_meet(const vec3<T>& along) : way({0, 0, 0}, along, 1) {}
+    [[nodiscard]] ABUT_HD bool keeps(T least) const { return way.keeps(least); }
+    ABUT_HD void shrink_to(double time) { way.shrink_to(time); }
+    ABUT_HD void turn_to(const vec3<double>&) {}
+    [[nodiscard]] ABUT_HD const aabb<T>& see_of_a(const aabb<T>& a) const { return a; }
+    [[nodiscard]] ABUT_HD const aabb<T>& see_of_b(const aabb<T>& b) const { return b; }
+    ABUT_HD T least_between(const aabb<T>& a, const aabb<T>& b) const {
+        // No way leads farther than to the largest number.
+        constexpr T most = largest_finite<T>;
+        const auto down = [](T from, T to) { return greatest(add_down(to, -from), -most); };
+        const auto up = [](T from, T to) { return least(add_up(to, -from), most); };
+        return way.least_in({{down(a.upper.x, b.lower.x), down(a.upper.y, b.lower.y), down(a.upper.z, b.lower.z)},
+                             {up(a.lower.x, b.upper.x), up(a.lower.y, b.upper.y), up(a.lower.z, b.upper.z)}});
     }
 };
 

@@ -25,6 +25,9 @@ struct swept {
     S start;                                ///< where it is at t = 0
     vec3<scalar_type> way;                  ///< where it goes by t = 1
 };
+/// clang 14 deduces nothing of an aggregate by itself.
+template <shape S, scalar T>
+swept(const S&, const vec3<T>&) -> swept<S>;
 
 /// Around the shape at all times, rounded outward.
 template <shape S>
