@@ -304,7 +304,9 @@ std::vector<solid_relation> ask_relations(const Policy& on, const Question& ques
 ///
 /// @par Errors
 /// - `invalid_geometry`: a mesh is no solid. The message has a face and says why. Without `known_solid` that is found out in
-///   each call, before anything else; it takes longer than the question, as a rule.
+///   each call, before anything else; it mostly takes longer than the question.
+/// - `invalid_geometry`: with a `rule`, a mesh is not closed or, but for `parity`, has faces turned against each other.
+/// - `error`: a `rule`, of a sphere or a capsule and a mesh.
 /// - `capacity_error`: more than 715,827,882 faces or pairs come to the first rank.
 /// - Those of @ref queries.
 ///
