@@ -142,7 +142,7 @@ std::pair<box_heap, box_heap> draw_two_heaps(draws& d, std::uint64_t k, inside_r
 
 TEMPLATE_TEST_CASE("relation by a rule: heaps of boxes, against the cells of a grid", "", float, double) {
     std::uint64_t wrong = 0, of[8] = {};
-    const std::uint64_t count = some_samples(20);
+    const std::uint64_t count = some_samples(40);
     const serial on;
     for (std::uint64_t k = 0; k < count; ++k) {
         draws d(20271129, 1, k);
@@ -160,6 +160,34 @@ TEMPLATE_TEST_CASE("relation by a rule: heaps of boxes, against the cells of a g
     std::printf("\n");
     CHECK(wrong == 0);
     for (int i = 0; i < 8; ++i) CHECK(of[i] > count / 200);
+}
+
+TEST_CASE("relation by a rule: what is refused, and bodies as one by one") {
+    const serial on;
+    draws d(20271129, 2, 0);
+    box_heap heap;
+    heap.parts = {{{0, 0, 0}, {3, 3, 3}, 1}, {{2, 0, 0}, {5, 3, 3}, 1}};
+    const mesh<double> closed = heap.surface<double>(draw_frame(d), d);
+    std::vector<face> faces;
+    for (std::size_t f = 0; f < closed.size(); ++f) faces.push_back(closed.view().faces[f]);
+    std::vector<vec3<double>> vertices;
+    for (std::size_t v = 0; v < closed.view().vertices.count; ++v) vertices.push_back(closed.view().vertices[v]);
+    const solid_options by{.rule = inside_rule::nonzero};
+    CHECK_THROWS_AS(relation(on, closed, closed), invalid_geometry);
+    CHECK(relation(on, closed, closed, by) == solid_relation::equal);
+
+    const mesh<double> open(vertices, std::vector<face>(faces.begin() + 1, faces.end()));
+    CHECK_THROWS_AS(relation(on, open, closed, by), invalid_geometry);
+    CHECK_THROWS_AS(overlaps(on, closed, open, by), invalid_geometry);
+    std::swap(faces[0][1], faces[0][2]);
+    const mesh<double> turned(vertices, faces);
+    CHECK_THROWS_AS(relation(on, turned, closed, by), invalid_geometry);
+    CHECK(relation(on, turned, closed, {.rule = inside_rule::parity}) != solid_relation::disconnected);
+    CHECK_THROWS_AS(overlaps(on, sphere<double>{{0, 0, 0}, 1}, closed, by), error);
+
+    const auto tree = make_bvh(on, closed);
+    const std::vector<posed_pair<std::remove_cvref_t<decltype(tree)>>> list{{posed(tree, rigid<double>{}), posed(tree, rigid<double>{})}};
+    CHECK(relation(on, list, by) == std::vector{solid_relation::equal});
 }
 
 }  // namespace abut::test
