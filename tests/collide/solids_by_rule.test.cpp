@@ -162,6 +162,25 @@ TEMPLATE_TEST_CASE("relation by a rule: heaps of boxes, against the cells of a g
     for (int i = 0; i < 8; ++i) CHECK(of[i] > count / 200);
 }
 
+TEST_CASE("relation by a rule: a cell whose corners are each of three faces") {
+    const serial on;
+    draws d(20271129, 3, 0);
+    // Three plates cross in one cell, which no diagonal of a side passes. A box that is turned inwards is around them twice: only
+    // there the surface goes round once the right way.
+    box_heap a, around, away;
+    a.parts = {{{1, 0, 0}, {2, 7, 7}, 1}, {{0, 5, 0}, {7, 6, 7}, 1}, {{0, 0, 3}, {7, 9, 4}, 1},
+               {{-1, -1, -1}, {8, 10, 8}, -1}, {{-1, -1, -1}, {8, 10, 8}, -1}};
+    around.parts = {{{0, 4, 2}, {3, 7, 5}, 1}};
+    away.parts = {{{2, 4, 2}, {4, 7, 5}, 1}};
+    const solid_options by{.rule = inside_rule::positive};
+    const frame_of_grid f = draw_frame(d);
+    const auto cell = a.surface<double>(f, d);
+    CHECK(relation(on, cell, around.surface<double>(f, d), by) == solid_relation::nontangential_part);
+    CHECK(overlaps(on, cell, around.surface<double>(f, d), by));
+    CHECK(relation(on, away.surface<double>(f, d), cell, by) == solid_relation::externally_connected);
+    CHECK(relation(on, cell, cell, by) == solid_relation::equal);
+}
+
 TEST_CASE("relation by a rule: what is refused, and bodies as one by one") {
     const serial on;
     draws d(20271129, 2, 0);

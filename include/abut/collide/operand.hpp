@@ -169,11 +169,20 @@ struct shape_of_argument<X> {
     using type = typename decltype(std::declval<const X&>().shapes())::shape_type;
 };
 
+/// Whether an argument is made of shapes of one kind. Indices of impacts, bodies and what is divided are not.
+template <class X>
+consteval bool has_shape() {
+    if constexpr (is_posed<X> || is_moved<X>) {
+        return has_shape<decltype(X::object)>();
+    } else {
+        return operand<X> || shape<X> || requires { typename X::shape_type; };
+    }
+}
 /// Whether the shapes of an argument go along ways.
 template <class X>
 inline constexpr bool goes_on_ways = false;
 template <class X>
-    requires is_swept<typename shape_of_argument<X>::type>
+    requires(has_shape<X>()) && is_swept<typename shape_of_argument<X>::type>
 inline constexpr bool goes_on_ways<X> = true;
 
 /// Whether make_operand takes it.
