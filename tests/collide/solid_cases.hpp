@@ -183,7 +183,7 @@ inline frame_of_grid draw_frame(draws& d) {
 
 // --- tetrahedra
 
-using tetrahedron = std::array<grid_place, 4>;
+using tetrahedron_of_grid = std::array<grid_place, 4>;
 
 inline std::int64_t volume_of(const grid_place& a, const grid_place& b, const grid_place& c, const grid_place& d) {
     const auto x = [&](const grid_place& p) { return std::int64_t{p[0]} - a[0]; };
@@ -191,9 +191,9 @@ inline std::int64_t volume_of(const grid_place& a, const grid_place& b, const gr
     const auto z = [&](const grid_place& p) { return std::int64_t{p[2]} - a[2]; };
     return x(b) * (y(c) * z(d) - z(c) * y(d)) - y(b) * (x(c) * z(d) - z(c) * x(d)) + z(b) * (x(c) * y(d) - y(c) * x(d));
 }
-inline tetrahedron draw_tetrahedron(draws& d, int size) {
+inline tetrahedron_of_grid draw_tetrahedron(draws& d, int size) {
     for (;;) {
-        tetrahedron t;
+        tetrahedron_of_grid t;
         for (grid_place& p : t) {
             for (int& x : p) x = d.below(size);
         }
@@ -204,7 +204,7 @@ inline tetrahedron draw_tetrahedron(draws& d, int size) {
     }
 }
 template <scalar T>
-mesh<T> surface_of(const tetrahedron& t, const frame_of_grid& frame) {
+mesh<T> surface_of(const tetrahedron_of_grid& t, const frame_of_grid& frame) {
     std::vector<vec3<T>> vertices;
     for (const grid_place& p : t) vertices.push_back(frame.operator()<T>(p));
     return {std::move(vertices), {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
@@ -389,8 +389,8 @@ inline solid_relation truth_of(const polyhedron& a, const polyhedron& b) {
     if (b_in_a) return touches_b ? solid_relation::tangential_part_inverse : solid_relation::nontangential_part_inverse;
     return both ? solid_relation::partially_overlapping : solid_relation::externally_connected;
 }
-inline solid_relation truth_of(const tetrahedron& a, const tetrahedron& b) {
-    const auto body = [](const tetrahedron& t) { return polyhedron({t.begin(), t.end()}); };
+inline solid_relation truth_of(const tetrahedron_of_grid& a, const tetrahedron_of_grid& b) {
+    const auto body = [](const tetrahedron_of_grid& t) { return polyhedron({t.begin(), t.end()}); };
     return truth_of(body(a), body(b));
 }
 

@@ -123,7 +123,7 @@ TEMPLATE_TEST_CASE("relation: tetrahedra of a small grid, against planes in inte
     for (std::uint64_t k = 0; k < count; ++k) {
         draws d(20270514, 3, k);
         const int size = 3 + d.below(4);
-        tetrahedron a = draw_tetrahedron(d, size), b = k % 16 == 0 ? a : draw_tetrahedron(d, size);
+        tetrahedron_of_grid a = draw_tetrahedron(d, size), b = k % 16 == 0 ? a : draw_tetrahedron(d, size);
         if (k % 16 == 1) {  // of middles of a's corners
             for (grid_place& p : a) {
                 for (int& x : p) x *= 8;
