@@ -25,14 +25,14 @@ namespace {
 
 /// The least move that separates two tetrahedra: the least depth along normals of faces and of pairs of edges (the faces of
 /// their Minkowski difference). In long double of integers.
-double least_move(const tetrahedron& a, const tetrahedron& b) {
+double least_move(const tetrahedron_of_grid& a, const tetrahedron_of_grid& b) {
     using normal = std::array<std::int64_t, 3>;
     const auto across = [](const grid_place& p, const grid_place& q, const grid_place& r, const grid_place& s) {
         const std::int64_t u[] = {q[0] - p[0], q[1] - p[1], q[2] - p[2]}, v[] = {s[0] - r[0], s[1] - r[1], s[2] - r[2]};
         return normal{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
     };
     std::vector<normal> all;
-    for (const tetrahedron* t : {&a, &b}) {
+    for (const tetrahedron_of_grid* t : {&a, &b}) {
         for (std::size_t i = 0; i < 4; ++i) all.push_back(across((*t)[i], (*t)[(i + 1) % 4], (*t)[i], (*t)[(i + 2) % 4]));
     }
     for (std::size_t i = 0; i < 4; ++i) {
@@ -151,7 +151,7 @@ TEMPLATE_TEST_CASE("penetration: of tetrahedra, against their Minkowski differen
     for (std::uint64_t k = 0; k < count; ++k) {
         draws d(20270801, 1, k);
         const int size = 3 + d.below(5);
-        const tetrahedron a = draw_tetrahedron(d, size), b = k % 16 == 0 ? a : draw_tetrahedron(d, size);
+        const tetrahedron_of_grid a = draw_tetrahedron(d, size), b = k % 16 == 0 ? a : draw_tetrahedron(d, size);
         frame_of_grid f;
         f.unit = k % 2 == 0 ? 1 : 0x1p-40;
         const mesh<TestType> x = surface_of<TestType>(a, f), y = surface_of<TestType>(b, f);

@@ -95,7 +95,7 @@ solid_relation truth_of(const round_of_grid& a, const round_of_grid& b) {
     return relation_by(true, first > 0, second > 0, first == 0 || second == 0);
 }
 
-solid_relation truth_of(const round_of_grid& s, const tetrahedron& t) {
+solid_relation truth_of(const round_of_grid& s, const tetrahedron_of_grid& t) {
     const int from_solid = distance_less({s.p, s.q}, {t.begin(), t.end()}, s.r);
     int nearest = 1, farthest = -1;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -217,7 +217,7 @@ TEMPLATE_TEST_CASE("relation: spheres and capsules with tetrahedra", "", float, 
     for (std::uint64_t k = 0; k < count; ++k) {
         draws d(20270515, 2, k);
         const frame_of_grid f = draw_unit(d);
-        const tetrahedron t = draw_tetrahedron(d, k % 4 == 0 ? 12 : 5);
+        const tetrahedron_of_grid t = draw_tetrahedron(d, k % 4 == 0 ? 12 : 5);
         const round_of_grid s = draw_round(d, k % 4 == 0 ? 12 : 5, k % 4 == 0 ? 2 : 6);
         all.ask_either<TestType>(s, f, surface_of<TestType>(t, f), truth_of(s, t), k % 4 != 0);
     }
