@@ -121,7 +121,7 @@ TEMPLATE_TEST_CASE("relation: boxes and hulls as shapes, against planes in integ
     for (std::uint64_t k = 0; k < count; ++k) {
         draws d(20270601, 2, k);
         const int size = 3 + d.below(4);
-        tetrahedron a = draw_tetrahedron(d, size), b = k % 16 == 0 ? a : draw_tetrahedron(d, size);
+        tetrahedron_of_grid a = draw_tetrahedron(d, size), b = k % 16 == 0 ? a : draw_tetrahedron(d, size);
         if (k % 16 == 1) {  // within the other one
             for (std::size_t i = 0; i < 4; ++i) {
                 for (std::size_t c = 0; c < 3; ++c) {
@@ -138,7 +138,7 @@ TEMPLATE_TEST_CASE("relation: boxes and hulls as shapes, against planes in integ
             if (k % 64 > 32) std::swap(a, b);
         }
         // Corners in any order, each perhaps twice, and points between them.
-        const auto points_of_tetrahedron = [&](const tetrahedron& t) {
+        const auto points_of_tetrahedron = [&](const tetrahedron_of_grid& t) {
             std::vector<vec3<TestType>> points;
             const auto at = [&](std::size_t i) {
                 return vec3<TestType>{static_cast<TestType>(t[i][0]), static_cast<TestType>(t[i][1]), static_cast<TestType>(t[i][2])};
