@@ -15,6 +15,7 @@
 #include <abut/arithmetic/limits.hpp>
 #include <abut/arithmetic/magnitude.hpp>
 #include <abut/arithmetic/strict.hpp>
+#include <abut/arithmetic/vec.hpp>
 #include <abut/config.hpp>
 
 namespace abut {
@@ -283,6 +284,23 @@ struct long_sum {
     }
     [[nodiscard]] ABUT_HD double total() const { return plain_sum(high, low); }
 };
+
+// Vectors in doubles, each operation rounded.
+
+ABUT_INLINE ABUT_HD constexpr double plain_dot(const vec3<double>& a, const vec3<double>& b) {
+    return plain_sum(plain_sum(plain_product(a.x, b.x), plain_product(a.y, b.y)), plain_product(a.z, b.z));
+}
+ABUT_INLINE ABUT_HD constexpr vec3<double> plain_cross(const vec3<double>& a, const vec3<double>& b) {
+    const auto minor = [](double s, double t, double x, double y) {
+        return plain_sum(plain_product(s, t), -plain_product(x, y));
+    };
+    return {minor(a.y, b.z, a.z, b.y), minor(a.z, b.x, a.x, b.z), minor(a.x, b.y, a.y, b.x)};
+}
+/// p + t v
+ABUT_INLINE ABUT_HD constexpr vec3<double> plain_step(const vec3<double>& p, double t, const vec3<double>& v) {
+    return {plain_sum(p.x, plain_product(t, v.x)), plain_sum(p.y, plain_product(t, v.y)),
+            plain_sum(p.z, plain_product(t, v.z))};
+}
 
 }  // namespace detail
 

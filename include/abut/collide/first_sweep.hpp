@@ -180,11 +180,7 @@ consteval bool can_touch_first() {
         if constexpr (one_goes && has_walk) {
             using mover = typename shape_of_argument<std::conditional_t<goes_on_ways<X>, X, Y>>::type;
             using met = typename shape_of_argument<std::conditional_t<goes_on_ways<X>, Y, X>>::type;
-            constexpr bool are = sweepable_pair<decltype(mover::start), met>;
-            static_assert(are,
-                          "abut: points, segments, triangles, spheres, capsules, boxes, oriented boxes and hulls can be swept, "
-                          "and be met; cylinders, cones, planes and rays cannot");
-            return are;
+            return can_go_and_be_met<mover, met>();
         } else {
             return false;
         }

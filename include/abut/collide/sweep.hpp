@@ -119,6 +119,15 @@ consteval bool are_rows() {
         return can_be_asked<Policy, Rows>();
     }
 }
+/// Whether a swept shape may meet another one.
+template <class Swept, class Met>
+consteval bool can_go_and_be_met() {
+    constexpr bool are = sweepable_pair<decltype(Swept::start), Met>;
+    static_assert(are,
+                  "abut: points, segments, triangles, spheres, capsules, boxes, oriented boxes and hulls can be swept, "
+                  "and be met; cylinders, cones, planes and rays cannot");
+    return are;
+}
 /// Whether `sweep` takes these arguments.
 template <class Policy, class X, class Rows>
 consteval bool can_be_swept() {
@@ -136,11 +145,7 @@ consteval bool can_be_swept() {
         constexpr bool has_walk = !is_grid<X>;
         static_assert(has_walk, "abut: sweep takes a tree, a set or one shape, and no grid");
         if constexpr (is_swept<row> && has_walk && have_one_scalar<X, Rows>()) {
-            constexpr bool are = sweepable_pair<decltype(row::start), met>;
-            static_assert(are,
-                          "abut: points, segments, triangles, spheres, capsules, boxes, oriented boxes and hulls can be swept, "
-                          "and be met; cylinders, cones, planes and rays cannot");
-            return are;
+            return can_go_and_be_met<row, met>();
         } else {
             return false;
         }

@@ -127,10 +127,8 @@ ABUT_HD constexpr point negated(const point& p) { return {-p.x, -p.y, -p.z}; }
 
 ABUT_HD constexpr double largest_of(const point& p) { return greatest(absolute(p.x), absolute(p.y), absolute(p.z)); }
 
+using detail::plain_dot;
 /// In doubles, rounded one by one.
-ABUT_INLINE ABUT_HD constexpr double plain_dot(const point& a, const point& b) {
-    return plain_sum(plain_sum(plain_product(a.x, b.x), plain_product(a.y, b.y)), plain_product(a.z, b.z));
-}
 ABUT_INLINE ABUT_HD constexpr point plain_difference(const point& a, const point& b) {
     return {plain_sum(a.x, -b.x), plain_sum(a.y, -b.y), plain_sum(a.z, -b.z)};
 }
@@ -246,18 +244,6 @@ template <scalar T>
 ABUT_HD constexpr T rounded_within(double x) {
     constexpr auto far = static_cast<double>(largest_finite<T>);
     return x > far ? largest_finite<T> : x < -far ? -largest_finite<T> : rounded(static_cast<T>(x));
-}
-
-ABUT_INLINE ABUT_HD constexpr vec3<double> plain_cross(const vec3<double>& a, const vec3<double>& b) {
-    const auto minor = [](double s, double t, double x, double y) {
-        return plain_sum(plain_product(s, t), -plain_product(x, y));
-    };
-    return {minor(a.y, b.z, a.z, b.y), minor(a.z, b.x, a.x, b.z), minor(a.x, b.y, a.y, b.x)};
-}
-/// p + t v
-ABUT_INLINE ABUT_HD constexpr vec3<double> plain_step(const vec3<double>& p, double t, const vec3<double>& v) {
-    return {plain_sum(p.x, plain_product(t, v.x)), plain_sum(p.y, plain_product(t, v.y)),
-            plain_sum(p.z, plain_product(t, v.z))};
 }
 
 }  // namespace abut::detail

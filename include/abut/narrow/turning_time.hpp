@@ -42,10 +42,10 @@ public:
     [[nodiscard]] ABUT_HD vec3<double> operator[](std::size_t i) const { return i < room ? kept_[i] : seen(i); }
     [[nodiscard]] ABUT_HD vec3<double> farthest(const vec3<double>& n) const {
         vec3<double> best = kept_[0];
-        double most = plain_along(n, best);
+        double most = plain_dot(n, best);
         for (std::size_t i = 1; i < size(); ++i) {
             const vec3<double> p = (*this)[i];
-            const double x = plain_along(n, p);
+            const double x = plain_dot(n, p);
             if (x > most) most = x, best = p;
         }
         return best;
@@ -60,9 +60,9 @@ public:
     [[nodiscard]] ABUT_HD vec3<double> farthest_placed(const vec3<double>& n) const {
         if (size() > room) return frame_.place(farthest(frame_.back(n)));
         vec3<double> best = placed_[0];
-        double most = plain_along(n, best);
+        double most = plain_dot(n, best);
         for (std::size_t i = 1; i < size(); ++i) {
-            const double x = plain_along(n, placed_[i]);
+            const double x = plain_dot(n, placed_[i]);
             if (x > most) most = x, best = placed_[i];
         }
         return best;
@@ -71,14 +71,14 @@ public:
     [[nodiscard]] ABUT_HD vec3<double> middle() const {
         const std::size_t n = least(size(), room);
         vec3<double> sum = placed_[0];
-        for (std::size_t i = 1; i < n; ++i) sum = plain_move(sum, 1.0, placed_[i]);
+        for (std::size_t i = 1; i < n; ++i) sum = plain_step(sum, 1.0, placed_[i]);
         const double share = 1 / static_cast<double>(n);
         return {plain_product(share, sum.x), plain_product(share, sum.y), plain_product(share, sum.z)};
     }
     /// No point is farther from the centre of the motion, where it is placed.
     [[nodiscard]] ABUT_HD double radius() const {
         double far = 0;
-        for (std::size_t i = 0; i < size(); ++i) far = greatest(far, plain_along((*this)[i], (*this)[i]));
+        for (std::size_t i = 0; i < size(); ++i) far = greatest(far, plain_dot((*this)[i], (*this)[i]));
         return plain_product(turning_bounds::stretch, std::sqrt(far));
     }
     /// As of a box: half the greatest second derivative of a point. The distance to the axis is the greatest of a corner.
@@ -86,15 +86,15 @@ public:
         if (m.angle == 0) return 0;
         double far = 0;
         for (std::size_t i = 0; i < size(); ++i) {
-            const vec3<double> across = plain_across(m.axis, at.turned((*this)[i]));
-            far = greatest(far, plain_along(across, across));
+            const vec3<double> across = plain_cross(m.axis, at.turned((*this)[i]));
+            far = greatest(far, plain_dot(across, across));
         }
         return plain_product(plain_product(0.5 * (1 + 0x1p-40), plain_product(m.angle, m.angle)), std::sqrt(far));
     }
 
 private:
     static constexpr std::size_t room = 8;
-    [[nodiscard]] ABUT_HD vec3<double> seen(std::size_t i) const { return plain_move(widened(of_[i]), -1.0, centre_); }
+    [[nodiscard]] ABUT_HD vec3<double> seen(std::size_t i) const { return plain_step(widened(of_[i]), -1.0, centre_); }
 
     const hull<T>& of_;
     vec3<double> centre_, kept_[room]{}, placed_[room]{};
@@ -140,7 +140,7 @@ public:
     /// Whether they touch at a time, but for so little that a search has to end there at the latest.
     [[nodiscard]] ABUT_HD bool touch_at(double time) {
         move_to(time);
-        along_ = plain_move(b_.middle(), -1.0, a_.middle());
+        along_ = plain_step(b_.middle(), -1.0, a_.middle());
         return nearest() <= 0.5 * bounds_.margin;
     }
 
@@ -166,7 +166,7 @@ private:
             move_to(time);
             bend_ = plain_sum(a_.bend(both_.a, frame_a_), b_.bend(both_.b, frame_b_));
             if (step == 0) {
-                along_ = plain_move(b_.middle(), -1.0, a_.middle());
+                along_ = plain_step(b_.middle(), -1.0, a_.middle());
                 if (is_passed(time, until, part)) return {};
             }
             const double distance = nearest();

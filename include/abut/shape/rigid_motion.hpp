@@ -73,23 +73,7 @@ ABUT_HD constexpr sine_and_versine sine_and_versine_of(double angle) {
     return {s, v};
 }
 
-// In doubles, each operation rounded.
-
-ABUT_INLINE ABUT_HD constexpr double plain_along(const vec3<double>& v, const vec3<double>& p) {
-    return placed(v.x, v.y, v.z, p, 0.0);
-}
-ABUT_INLINE ABUT_HD constexpr vec3<double> plain_across(const vec3<double>& a, const vec3<double>& b) {
-    const auto minor = [](double s, double t, double x, double y) {
-        return plain_sum(plain_product(s, t), -plain_product(x, y));
-    };
-    return {minor(a.y, b.z, a.z, b.y), minor(a.z, b.x, a.x, b.z), minor(a.x, b.y, a.y, b.x)};
-}
-/// p + t v
-ABUT_INLINE ABUT_HD constexpr vec3<double> plain_move(const vec3<double>& p, double t, const vec3<double>& v) {
-    return {plain_sum(p.x, plain_product(t, v.x)), plain_sum(p.y, plain_product(t, v.y)),
-            plain_sum(p.z, plain_product(t, v.z))};
-}
-ABUT_HD inline double plain_length(const vec3<double>& v) { return std::sqrt(plain_along(v, v)); }
+ABUT_HD inline double plain_length(const vec3<double>& v) { return std::sqrt(plain_dot(v, v)); }
 
 /// A matrix of rows, and where the centre is: the point r - c of a body lies at a (r - c) + at.
 struct turned_frame {
@@ -97,7 +81,7 @@ struct turned_frame {
     vec3<double> at;
 
     [[nodiscard]] ABUT_INLINE ABUT_HD constexpr vec3<double> turned(const vec3<double>& p) const {
-        return {plain_along(rows[0], p), plain_along(rows[1], p), plain_along(rows[2], p)};
+        return {plain_dot(rows[0], p), plain_dot(rows[1], p), plain_dot(rows[2], p)};
     }
     [[nodiscard]] ABUT_INLINE ABUT_HD constexpr vec3<double> place(const vec3<double>& p) const {
         return {placed(rows[0].x, rows[0].y, rows[0].z, p, at.x), placed(rows[1].x, rows[1].y, rows[1].z, p, at.y),
@@ -105,8 +89,8 @@ struct turned_frame {
     }
     /// A direction of the world, by the transposed.
     [[nodiscard]] ABUT_INLINE ABUT_HD constexpr vec3<double> back(const vec3<double>& n) const {
-        return plain_move(
-            plain_move({plain_product(n.x, rows[0].x), plain_product(n.x, rows[0].y), plain_product(n.x, rows[0].z)}, n.y,
+        return plain_step(
+            plain_step({plain_product(n.x, rows[0].x), plain_product(n.x, rows[0].y), plain_product(n.x, rows[0].z)}, n.y,
                        rows[1]),
             n.z, rows[2]);
     }
@@ -123,9 +107,9 @@ struct rigid_motion {
     /// Whether nothing moves.
     [[nodiscard]] ABUT_HD bool is_still() const { return angle == 0 && off == 0 && way == vec3<double>{0, 0, 0}; }
     [[nodiscard]] ABUT_HD turned_frame frame(double t) const {
-        turned_frame f{{from[0], from[1], from[2]}, plain_move(start, t, way)};
+        turned_frame f{{from[0], from[1], from[2]}, plain_step(start, t, way)};
         if (off > 0) {
-            for (int i = 0; i < 3; ++i) f.rows[i] = plain_move(from[i], t, drift[i]);
+            for (int i = 0; i < 3; ++i) f.rows[i] = plain_step(from[i], t, drift[i]);
         }
         return angle == 0 ? f : turned_by(plain_product(t, angle), f);
     }
@@ -216,21 +200,21 @@ rigid_motion make_rigid_motion(const rigid<T>& from, const rigid<T>& to, const t
             return placed(r.x, r.y, r.z, m.centre, 0.0);
         };
         const vec3<double> turned{one(0), one(1), one(2)};
-        return plain_move(turned, 1.0, widened(pose.translation));
+        return plain_step(turned, 1.0, widened(pose.translation));
     };
     m.start = placed_centre(from);
-    m.way = plain_move(placed_centre(to), -1.0, m.start);
+    m.way = plain_step(placed_centre(to), -1.0, m.start);
     vec3<double> last[3], turn[3];
     for (int i = 0; i < 3; ++i) m.from[i] = widened(row(from.rotation, i)), last[i] = widened(row(to.rotation, i));
     for (int i = 0; i < 3; ++i) {
-        turn[i] = {plain_along(last[i], m.from[0]), plain_along(last[i], m.from[1]), plain_along(last[i], m.from[2])};
+        turn[i] = {plain_dot(last[i], m.from[0]), plain_dot(last[i], m.from[1]), plain_dot(last[i], m.from[2])};
     }
     axis_and_angle how = axis_of_turn(turn);
     const vec3<double> wish = widened(about.axis);
     const double largest = magnitudes(wish);
     if (largest > 0) {
         const vec3<double> n{wish.x / largest, wish.y / largest, wish.z / largest};
-        const double along = plain_along(how.axis, n) / plain_length(n);
+        const double along = plain_dot(how.axis, n) / plain_length(n);
         if (how.angle > 0x1p-10 && !(absolute(along) > 0.5)) {
             throw error(function + ": the given axis is " + shortest(absolute(along)) +
                         " of its length along that of the turn; expected more than 0.5");
@@ -251,8 +235,8 @@ rigid_motion make_rigid_motion(const rigid<T>& from, const rigid<T>& to, const t
     double square = 0;
     const bool stays = m.angle == 0 && last[0] == m.from[0] && last[1] == m.from[1] && last[2] == m.from[2];
     for (int i = 0; i < 3 && !stays; ++i) {
-        m.drift[i] = plain_move(left.rows[i], -1.0, m.from[i]);
-        square = plain_sum(square, plain_along(m.drift[i], m.drift[i]));
+        m.drift[i] = plain_step(left.rows[i], -1.0, m.from[i]);
+        square = plain_sum(square, plain_dot(m.drift[i], m.drift[i]));
     }
     m.off = std::sqrt(square) * (1 + 0x1p-40);
     return m;

@@ -55,8 +55,8 @@ struct turning_bounds {
     /// Of a box.
     template <scalar T>
     static double radius(const rigid_motion& m, const aabb<T>& box) {
-        const vec3<double> lower = plain_move(widened(box.lower), -1.0, m.centre),
-                           upper = plain_move(widened(box.upper), -1.0, m.centre);
+        const vec3<double> lower = plain_step(widened(box.lower), -1.0, m.centre),
+                           upper = plain_step(widened(box.upper), -1.0, m.centre);
         return plain_product(stretch, plain_length(greatest(absolute(lower), absolute(upper))));
     }
 
@@ -76,7 +76,7 @@ struct turned_box {
     template <scalar T>
     ABUT_INLINE ABUT_HD turned_box(const aabb<T>& box, const vec3<double>& centre) {
         const vec3<double> lower = widened(box.lower), upper = widened(box.upper);
-        middle = plain_move({0.5 * (lower.x + upper.x), 0.5 * (lower.y + upper.y), 0.5 * (lower.z + upper.z)}, -1.0, centre);
+        middle = plain_step({0.5 * (lower.x + upper.x), 0.5 * (lower.y + upper.y), 0.5 * (lower.z + upper.z)}, -1.0, centre);
         half = {0.5 * (upper.x - lower.x), 0.5 * (upper.y - lower.y), 0.5 * (upper.z - lower.z)};
     }
     [[nodiscard]] ABUT_HD vec3<double> farthest(const vec3<double>& n) const {
@@ -87,7 +87,7 @@ struct turned_box {
     [[nodiscard]] ABUT_HD double bend(const rigid_motion& m, const turned_frame& at) const {
         if (m.angle == 0) return 0;
         const double radius = plain_length(half) * turning_bounds::stretch;  // around the middle
-        return 0.5 * (m.angle * m.angle) * (plain_length(plain_across(m.axis, at.turned(middle))) + radius) * (1 + 0x1p-40);
+        return 0.5 * (m.angle * m.angle) * (plain_length(plain_cross(m.axis, at.turned(middle))) + radius) * (1 + 0x1p-40);
     }
 };
 
@@ -114,18 +114,18 @@ struct gap_ahead {
           speed_a(speed_along(both.a, at_a, n)),
           height_b(at_b.back(n)),
           speed_b(speed_along(both.b, at_b, n)),
-          apart(plain_sum(plain_along(n, plain_move(at_b.at, -1.0, at_a.at)), -plain_sum(radius, bounds.margin))),
-          closing(plain_sum(plain_along(n, plain_move(both.b.way, -1.0, both.a.way)), -bounds.drift)),
+          apart(plain_sum(plain_dot(n, plain_step(at_b.at, -1.0, at_a.at)), -plain_sum(radius, bounds.margin))),
+          closing(plain_sum(plain_dot(n, plain_step(both.b.way, -1.0, both.a.way)), -bounds.drift)),
           bend(plain_sum(bend_of_shapes, bounds.bend)) {}
 
     /// No less than that is between them after a time, and how the bound changes there.
     [[nodiscard]] ABUT_HD value after(double s) const {
-        const vec3<double> along_a = plain_move(height_a, s, speed_a), along_b = plain_move(height_b, s, speed_b),
+        const vec3<double> along_a = plain_step(height_a, s, speed_a), along_b = plain_step(height_b, s, speed_b),
                            back_b{-along_b.x, -along_b.y, -along_b.z};
         const vec3<double> p = a.farthest(along_a), q = b.farthest(back_b);
         const double curve = plain_product(bend, s);
-        const double between = plain_sum(plain_sum(plain_along(along_b, q), -plain_along(along_a, p)), apart);
-        const double slope = plain_sum(plain_sum(plain_along(speed_b, q), -plain_along(speed_a, p)), closing);
+        const double between = plain_sum(plain_sum(plain_dot(along_b, q), -plain_dot(along_a, p)), apart);
+        const double slope = plain_sum(plain_sum(plain_dot(speed_b, q), -plain_dot(speed_a, p)), closing);
         return {plain_sum(between, plain_product(s, plain_sum(closing, -curve))), plain_sum(slope, -2 * curve)};
     }
     /// For so long, up to `end`, they are surely apart. 0 where they may not be now.
@@ -165,7 +165,7 @@ private:
     /// theta u x v along n is v along theta n x u.
     ABUT_HD static vec3<double> speed_along(const rigid_motion& m, const turned_frame& at, const vec3<double>& n) {
         if (m.angle == 0) return {0, 0, 0};
-        const vec3<double> w = plain_across(n, m.axis);
+        const vec3<double> w = plain_cross(n, m.axis);
         return at.back({plain_product(m.angle, w.x), plain_product(m.angle, w.y), plain_product(m.angle, w.z)});
     }
 };
