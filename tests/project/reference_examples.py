@@ -43,6 +43,7 @@ const abut::rigid<float> here, there;
 
 STEP = "const auto step = abut::moving(cloth_t0, cloth_t1);"
 GEAR = "auto gear = abut::make_bvh(on, mesh);"
+MOTION = "const auto robot = gear; const abut::rigid<float> from, to;"
 NAMES = {
     "shape/rigid.hpp": "abut::rigid<float> step, pose; int steps = 0;",
     "narrow/feature_weights.hpp": "const abut::motion<abut::vec3<float>> vertex{};"
@@ -69,6 +70,10 @@ NAMES = {
     "collide/spans.hpp": GEAR + "const auto& tree = gear; const abut::rays<float> rays; std::vector<float> thickness(9);",
     "collide/inside.hpp": "const auto& scan = mesh;",
     "collide/hull_edges.hpp": "const std::vector<std::vector<abut::vec3<float>>> lists;",
+    "shape/turning.hpp": GEAR + MOTION,
+    "collide/turning.hpp": GEAR + MOTION + "const auto room = gear; using index = decltype(gear);"
+                           "const std::vector<std::pair<abut::rigid<float>, abut::rigid<float>>> roadmap;"
+                           "static const auto turn_back = [] {};",
     "collide/row_each.hpp": "const auto room = abut::make_bvh(on, mesh); const abut::spheres<float> links;",
     "collide/touching_bodies.hpp": GEAR + "const std::vector<abut::posed_object<decltype(gear)>> scene;",
     "collide/ray_options.hpp": "const abut::rays<float> rays; const auto index = abut::make_bvh(on, mesh);",
