@@ -302,6 +302,50 @@ TEMPLATE_TEST_CASE("distance of hulls: eight points need not be a box's corners"
     CHECK(left > 100);
 }
 
+// Differences of coordinates, and radii beside them, that are no doubles: distances and points are those of a small scene.
+TEST_CASE("distance of hulls: near the largest number") {
+    constexpr int up = 1023;
+    constexpr double bound = 0x1p-45;
+    const auto scaled = [](const vec3<double>& p, int e) {
+        return vec3<double>{std::ldexp(p.x, e), std::ldexp(p.y, e), std::ldexp(p.z, e)};
+    };
+    std::uint64_t touching = 0, apart = 0;
+    for (std::uint64_t k = 0; k < test::sample_count() / 4; ++k) {
+        test::draws d(test::sample_seed + 10, 1, k);
+        const auto somewhere = [&] {
+            const double x = d.uniform(-1.9, 1.9), y = d.uniform(-1.9, 1.9);
+            return vec3<double>{x, y, d.uniform(-1.9, 1.9)};
+        };
+        const std::size_t n = 1 + k % 6, m = 1 + k / 6 % 3;
+        std::vector<vec3<double>> points, others, large, large_others;
+        for (std::size_t i = 0; i < n; ++i) points.push_back(somewhere()), large.push_back(scaled(points.back(), up));
+        for (std::size_t i = 0; i < m; ++i) others.push_back(somewhere()), large_others.push_back(scaled(others.back(), up));
+        const double radius = k % 3 == 0 ? 0 : d.uniform(0, 1.9);
+        const hull<double> h{points.data(), n}, far{large.data(), n};
+        const auto look = [&](const auto& small, const auto& size) {
+            const separation<double> truth = distance(h, small), found = distance(far, size);
+            CAPTURE(k, n, m);
+            CHECK(intersects<exact>(far, size) == (truth.distance == 0));
+            ++(truth.distance == 0 ? touching : apart);
+            if (truth.distance < 1.99) CHECK(std::fabs(std::ldexp(found.distance, -up) - truth.distance) <= bound);
+            if (truth.distance > 2.01) CHECK(found.distance == infinity<double>);
+            const auto reaches_out = [](const vec3<double>& p) { return detail::contact_math::magnitude_of(p) == largest_finite<double>; };
+            if (reaches_out(found.point_a) || reaches_out(found.point_b)) return;  // a capsule may reach farther
+            const vec3<double> a = scaled(found.point_a, -up), b = scaled(found.point_b, -up), way = b - a;
+            CHECK(std::fabs(std::sqrt(dot(way, way)) - truth.distance) <= bound);
+            CHECK(distance(a, h).distance <= bound);
+            CHECK(distance(b, small).distance <= bound);
+        };
+        const hull<double> other{others.data(), m}, other_far{large_others.data(), m};
+        look(other, other_far);
+        look(sphere<double>{others[0], radius}, sphere<double>{large_others[0], std::ldexp(radius, up)});
+        look(capsule<double>{{others[0], others[m - 1]}, radius},
+             capsule<double>{{large_others[0], large_others[m - 1]}, std::ldexp(radius, up)});
+    }
+    CHECK(touching > test::sample_count() / 10);
+    CHECK(apart > test::sample_count() / 10);
+}
+
 TEMPLATE_TEST_CASE("distance of hulls: a far corner hides no meeting", "", float, double) {
     using T = TestType;
     // What is near looks apart beside rounding of what is far.

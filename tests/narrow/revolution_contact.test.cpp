@@ -71,4 +71,38 @@ TEST_CASE("contacts of cylinders and cones: by hand, and in constant expressions
                   detail::contact_pair<cone<double>, plane<double>>);
 }
 
+// An edge that is seen nearly on the larger axis of the ellipse that a rim is: the ways out on both sides of the axis are as
+// long, and the triangle lies on one of them. What is moved by less than a bound changes no depth by more.
+TEMPLATE_TEST_CASE("contacts of cylinders and cones: an edge next to the larger axis of a rim", "", cylinder<double>, cone<double>) {
+    using vec = vec3<double>;
+    const double a = 0.5, b = 0.25;  // of a rim of radius 0.5 whose axis leans by 60 degrees from the edge's direction, y
+    const vec axis{std::sqrt(3.0) / 2, 0.5, 0};
+    std::size_t pairs = 0;
+    for (const double x : {0.3, 0.34, 0.36}) {  // below (a^2 - b^2) / a
+        double depth[2] = {};
+        for (const double y : {0.0, 1e-4, 1e-8, 1e-10, 1e-13, 1e-16, 1e-25, 1e-80}) {
+            for (const double side : {-1.0, 1.0}) {
+                for (const double of_y : {-1.0, 1.0}) {
+                    const vec p{of_y * y, 0, x};
+                    const triangle<double> t{p - vec{0, 3, 0}, p + vec{0, 3, 0}, p + vec{side, 0, 0}};
+                    TestType solid{};
+                    if constexpr (std::same_as<TestType, cone<double>>) {
+                        solid = {-4.0 * axis, {0, 0, 0}, a};
+                    } else {
+                        solid = {{-4.0 * axis, {0, 0, 0}}, a};
+                    }
+                    const double found = contact_of(solid, t)->depth;
+                    double& at_zero = depth[side > 0 ? 1 : 0];
+                    if (y == 0) at_zero = found;
+                    CAPTURE(x, y, side, of_y);
+                    CHECK(std::abs(found - at_zero) <= y + 1e-15);
+                    ++pairs;
+                }
+            }
+        }
+        CHECK(std::min(depth[0], depth[1]) < b);
+    }
+    CHECK(pairs == 96);
+}
+
 }  // namespace abut::test

@@ -58,6 +58,15 @@ TEST_CASE("distance: cylinders and cones from hulls, by hand") {
     CHECK(distance(cylinder<double>{{{5, 1, 1}, {5, 1, 1}}, 1}, h).distance == 2);
 }
 
+TEST_CASE("distance: a flat tetrahedron of differences tells no point off the shapes") {
+    // A place on the rim is a unit in the last place inside of the triangle.
+    const cone<double> s{{3, 2, 2}, {3, 14, 2}, 20};
+    const std::vector<vec3<double>> corners{{-20, 17, 16}, {-15, 14, 26}, {0x1.0000000000001p+1, 11, 20}};
+    gap_tally tally;
+    check_gap("nudged", 0, s, hull<double>(corners.data(), 3), tally);
+    CHECK(tally.touching == 1);
+}
+
 TEMPLATE_TEST_CASE("distance: cylinders and cones from hulls, against 300 bits", "", cylinder<float>, cylinder<double>,
                    cone<float>, cone<double>) {
     check_gaps<TestType>();

@@ -142,8 +142,12 @@ public:
         look_back(v, i, j);
         return dot(v, difference(i, j));
     }
-    /// A length in units of the hulls.
-    [[nodiscard]] ABUT_HD constexpr double length_of(const number& x) const { return contact_math::scaled(x.high, -down_); }
+    /// A length in units of the hulls, times a power of two.
+    [[nodiscard]] ABUT_HD constexpr double length_of(const number& x, int exponent) const {
+        return contact_math::scaled(x.high, exponent - down_);
+    }
+    /// No coordinate is larger.
+    [[nodiscard]] ABUT_HD constexpr double largest() const { return largest_; }
     /// Whether hulls whose distance was measured are farther apart than some length, for sure.
     [[nodiscard]] ABUT_HD constexpr bool are_surely_beyond(double length, double measured) const {
         const double off = 0x1p-44 * (largest_ + length) + 8 * lost_of_differences<T>;
@@ -202,19 +206,23 @@ private:
 };
 
 /// Points of two hulls that are as near to each other as any, as means of the hulls' points, and their distance; or, where
-/// the hulls seem to touch, of one point of both, and 0.
+/// the hulls seem to touch, of one point of both, and 0. Where differences of coordinates, or a radius around one hull, might
+/// be more than a double holds, lengths and ways are 2^-down of themselves.
 template <scalar T>
 struct nearest_in_hulls {
     difference_simplex at;
     double weight[4] = {1, 0, 0, 0};
+    int down = 0;
     double length = 0;
     aabb<T> box_a, box_b;  ///< around the hulls, if they are whole; or around some points of each
     bool are_boxes_whole = true;
 
     /// Where it is known whether the shapes touch, another feature may be taken that is as near, but for rounding.
-    ABUT_NOINLINE ABUT_HD constexpr nearest_in_hulls(const hull<T>& a, const hull<T>& b, verdict known = verdict::unknown) {
+    ABUT_NOINLINE ABUT_HD constexpr nearest_in_hulls(const hull<T>& a, const hull<T>& b, double radii = 0,
+                                                     verdict known = verdict::unknown) {
         vec3<contact_math::one_double> rough[4];
         const hulls_in_plain_doubles<T> doubles(a, b, known);
+        down = down_for(greatest(doubles.largest(), radii));
         const verdict seems = search(doubles, rough);
         finish(a, b, doubles, rough, seems, known);
     }
@@ -225,6 +233,7 @@ struct nearest_in_hulls {
                                                      bool& touch) {
         vec3<contact_math::one_double> rough[4];
         const hulls_in_plain_doubles<T> doubles(a, b, verdict::unknown);
+        down = down_for(greatest(doubles.largest(), radii));
         const verdict seems = search(doubles, rough);
         if (seems != verdict::yes && measure_in_doubles(doubles, rough, verdict::no) &&
             doubles.are_surely_beyond(radii, length)) {
@@ -253,7 +262,7 @@ struct nearest_in_hulls {
         (void)feature.find(w, at.count, (1u << at.count) - 1);
         return contact_math::unit_of(feature.way);
     }
-    /// And so far beyond; rounded together, since both may be small where coordinates are large.
+    /// And so far beyond, 2^-down of it; rounded together, since both may be small where coordinates are large.
     ///@{
     [[nodiscard]] ABUT_HD constexpr vec3<double> point_on_a(const hull<T>& a, const vec3<double>& beyond) const {
         return mean(a, at.a, beyond);
@@ -267,7 +276,7 @@ struct nearest_in_hulls {
     [[nodiscard]] ABUT_HD constexpr vec3<double> way(const hull<T>& a, const hull<T>& b) const {
         vec3<double> sum{0, 0, 0};
         for (int k = 0; k < at.count; ++k) {
-            const vec3<double> w = contact_math::plain_difference(widened(b[at.b[k]]), widened(a[at.a[k]]));
+            const vec3<double> w = contact_math::plain_difference(shrunk(b[at.b[k]]), shrunk(a[at.a[k]]));
             sum = plain_step(sum, weight[k], w);
         }
         return sum;
@@ -295,12 +304,17 @@ private:
         const bool meet = search_origin<sought::nearest>(x, at, w) == verdict::yes;
         measure(w, meet, unit.low);
     }
+    ABUT_HD static constexpr int down_for(double largest) { return std::same_as<T, double> && largest > 0x1p1000 ? 8 : 0; }
+    ABUT_HD constexpr vec3<double> shrunk(const vec3<T>& p) const {
+        return down == 0 ? widened(p) : contact_math::scaled(widened(p), -down);
+    }
     ABUT_HD constexpr vec3<double> mean(const hull<T>& h, const std::uint32_t (&ids)[4], vec3<double> sum) const {
-        const vec3<double> first = widened(h[ids[0]]);
+        const vec3<double> first = shrunk(h[ids[0]]);
         for (int k = 1; k < at.count; ++k) {
-            sum = plain_step(sum, weight[k], contact_math::plain_difference(widened(h[ids[k]]), first));
+            sum = plain_step(sum, weight[k], contact_math::plain_difference(shrunk(h[ids[k]]), first));
         }
-        return plain_step(first, 1, sum);
+        const vec3<double> p = plain_step(first, 1, sum);
+        return down == 0 ? p : contact_math::scaled(p, down);
     }
 
     /// From the search in doubles. False, with nothing changed, where these do not tell enough.
@@ -348,7 +362,7 @@ private:
                 if (dot(n, w[0]).high < 0) n = cross(w[2] - w[0], w[1] - w[0]);
                 if (!shows(n, root(dot(n, n)))) return false;
             }
-            length = x.length_of(far);
+            length = x.length_of(far, -down);
         }
         for (int k = 0; k < at.count; ++k) weight[k] = part[k];
         return true;
@@ -381,7 +395,7 @@ private:
             }
         }
         weigh(share);
-        if (!meet) length = root_of_quotient(over, under, unit);
+        if (!meet) length = root_of_quotient(over, under, unit - down);
     }
     ABUT_HD constexpr void weigh(const contact_math::far_double (&share)[4]) {
         int highest = -1;
@@ -423,7 +437,7 @@ struct measured_hull_pair {
 
     ABUT_HD constexpr measured_hull_pair(const hull<T>& of_a, T around_a, const hull<T>& of_b, T around_b,
                                          verdict known = verdict::unknown)
-        : nearest(of_a, of_b, known),
+        : nearest(of_a, of_b, static_cast<double>(greatest(around_a, around_b)), known),
           radius_a(static_cast<double>(around_a)),
           radius_b(static_cast<double>(around_b)),
           a(of_a),
@@ -439,7 +453,8 @@ struct measured_hull_pair {
           b(of_b) {}
 
     [[nodiscard]] ABUT_HD constexpr double distance() const {
-        return plain_sum(nearest.length, -plain_sum(radius_a, radius_b));
+        if (nearest.down == 0) return plain_sum(nearest.length, -plain_sum(radius_a, radius_b));
+        return contact_math::scaled(plain_sum(nearest.length, -plain_sum(shrunk(radius_a), shrunk(radius_b))), nearest.down);
     }
     [[nodiscard]] ABUT_HD constexpr vec3<double> way() const { return nearest.way(a, b); }
     [[nodiscard]] ABUT_HD constexpr vec3<T> point_on_a() const { return narrowed(nearest.point_on_a(a, along_way(radius_a))); }
@@ -450,7 +465,10 @@ struct measured_hull_pair {
 private:
     [[nodiscard]] ABUT_HD constexpr vec3<double> along_way(double length) const {
         using namespace contact_math;
-        return length == 0 ? point{0, 0, 0} : plain_step({0, 0, 0}, length, unit_vector(as<one_double>(way())));
+        return length == 0 ? point{0, 0, 0} : plain_step({0, 0, 0}, shrunk(length), unit_vector(as<one_double>(way())));
+    }
+    [[nodiscard]] ABUT_HD constexpr double shrunk(double length) const {
+        return nearest.down == 0 ? length : contact_math::scaled(length, -nearest.down);
     }
     ABUT_HD static constexpr vec3<T> narrowed(const vec3<double>& p) {
         return {rounded_within<T>(p.x), rounded_within<T>(p.y), rounded_within<T>(p.z)};

@@ -388,6 +388,14 @@ private:
         }
         weight[3] = rest;
         square = 0;
+        bring_within();
+    }
+    /// Of a flat tetrahedron volumes tell little, and a weight may be below 0: then the mean would lie off the shapes.
+    ABUT_HD constexpr void bring_within() {
+        double sum = 0;
+        for (int k = 0; k < 4; ++k) sum = plain_sum(sum, weight[k] > 0 ? weight[k] : 0);
+        if (weight[0] >= 0 && weight[1] >= 0 && weight[2] >= 0 && weight[3] >= 0) return;
+        for (int k = 0; k < 4; ++k) weight[k] = weight[k] > 0 ? weight[k] / sum : 0;
     }
 };
 

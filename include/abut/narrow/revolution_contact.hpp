@@ -108,11 +108,12 @@ struct ellipse_and_point {
         if (y < 0) {
             // Where it rises the least, over s c.
             const double p = plain_product(b, -y), q = plain_product(a, x);
-            for (int i = 0; i < few_steps; ++i) {
+            for (int i = 0; i < few_steps || (from.s == 0 && i < most_steps); ++i) {  // at (1, 0) it says nothing
                 const quarter_point m = between_quarter_points(from, to);
                 const bool is_before = plain_product(p, cube(m.c)) > plain_product(q, cube(m.s));
                 is_before ? from = m : to = m;
             }
+            if (!(rise(from) < 0)) from = to;
             found = rise(from) < 0;
             to = {0, 1};
             if (!found) return from;
