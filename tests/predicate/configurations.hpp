@@ -2,7 +2,7 @@
 #pragma once
 
 // Two triangles in every configuration that the source of these tests (Maffina, 2012, figures 3.5 and 3.6) checked by eye,
-// and in those that it leaves out. Written by hand in small integers, with what the two have in common; docs/numerics.md
+// and in those that it leaves out. Written by hand in small integers, with what the two have in common; docs/numerics/triangles.md
 // shows them drawn.
 //
 // A triangle is placed against the other's plane by how many of its corners lie above (+), on (0) and below (-) it; which
