@@ -9,7 +9,7 @@ from report_predicates import from_tests
 from report_queries import BUILDERS, LABELS, SIZES, SPHERES, TRIANGLES, of_size
 
 
-# --- README, docs/costs.md --------------------------------------------------------------------------------------------------
+# --- README, docs/results/costs.md --------------------------------------------------------------------------------------------------
 
 def paragraph(text):
     return textwrap.wrap(" ".join(text.split()), 125, break_long_words=False, break_on_hyphens=False) + [""]
@@ -41,7 +41,7 @@ def cost_peers(results):
     triangles = results["cpu/triangles"]
     for peer, name in (("cgal", "CGAL's exact predicates"), ("fcl", "FCL")):
         add("two triangles: do they touch", name, triangles.get("pair/filtered/double/20") / triangles.get(f"pair/{peer}/double/20"), "exact",
-            "exact" if peer == "cgal" else "not counted", "costs.md")
+            "exact" if peer == "cgal" else "not counted", "results/costs.md")
     distance = results["cpu/distance"]
     add("distance of two scans that are apart", "FCL", distance.get("distance/scan/apart/oriented") / distance.get("distance/scan/apart/fcl"),
         "not counted", "not counted", "results/distance.md#distances")
@@ -160,12 +160,15 @@ RESULTS_OF = {
     "spheres": ["cpu/spheres_mesh", "cuda/spheres_mesh"],
     "triangles": ["cpu/triangles", "cpu/families", "cpu/ties", "cuda/triangles", "cuda/ties"],
     "distance": ["cpu/nearest", "cpu/distance", "cpu/within", "cuda/nearest", "cuda/distance"],
+    "trees": ["cpu/builders", "cpu/fronts", "cuda/builders", "cuda/fronts"],
     "convex": ["cpu/hulls"],
     "rays": ["cpu/raycast", "cuda/raycast"],
     "bodies": ["cpu/bodies", "cuda/bodies"],
     "meshes": ["cpu/meshes", "cpu/any", "cpu/descents", "cpu/validate", "cuda/meshes", "cuda/schedules", "cuda/validate"],
     "motion": ["cpu/motion", "cuda/motion", "cuda/motion_flying", "cuda/pair_rules"],
     "extremes": ["cpu/extremes", "cuda/extremes"],
+    "scaling": ["cpu/cores", "cpu/cores_busy", "cpu/distributed"],
+    "devices": ["cuda/devices", "cuda/devices_large", "cuda/devices_divided"],
     "footprint": ["cpu/footprint", "cpu/footprint_build", "cuda/footprint"],
 }
 
