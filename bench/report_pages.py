@@ -165,7 +165,7 @@ RESULTS_OF = {
     "rays": ["cpu/raycast", "cuda/raycast"],
     "bodies": ["cpu/bodies", "cuda/bodies"],
     "meshes": ["cpu/meshes", "cpu/any", "cpu/descents", "cpu/validate", "cuda/meshes", "cuda/schedules", "cuda/validate"],
-    "motion": ["cpu/motion", "cuda/motion", "cuda/motion_flying", "cuda/pair_rules"],
+    "motion": ["cpu/motion", "cpu/pair_rules", "cuda/motion", "cuda/motion_flying", "cuda/pair_rules"],
     "extremes": ["cpu/extremes", "cuda/extremes"],
     "scaling": ["cpu/cores", "cpu/cores_busy", "cpu/distributed"],
     "devices": ["cuda/devices", "cuda/devices_large", "cuda/devices_divided"],
