@@ -50,7 +50,7 @@ MUTATIONS = {
     "a measurement in a sentence": lambda r: append(r / "docs" / "building.md", "\nA query takes 1.25\nms here.\n"),
     "a factor in a sentence": lambda r: append(r / "README.md", "\nIt is 17.4 times faster.\n"),
     "a share in a sentence": lambda r: append(r / "docs" / "results" / "contacts.md", "\nIt keeps some 80 % of them.\n"),
-    "a rate in a sentence": lambda r: append(r / "docs" / "guide.md", "\nIt reads half a million inputs a second.\n"),
+    "a rate in a sentence": lambda r: append(r / "docs" / "guide" / "rays.md", "\nIt reads half a million inputs a second.\n"),
     "bytes in a sentence": lambda r: append(r / "docs" / "building.md", "\nA tree of it takes 3.5 MiB here.\n"),
     "so many of so many in a sentence": lambda r: append(r / "docs" / "building.md", "\nIt finds 1,234 of the 5,678.\n"),
     "a number that the source has no more": lambda r: replace(r / "tests" / "project" / "viewer" / "read.test.mjs",
