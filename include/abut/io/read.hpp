@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Files into sets: a mesh from OBJ, PLY, STL, OFF or glTF, spheres from CSV. Formats and exact rules: docs/reference/formats.md. The
-// parsers beneath work on text and bytes in memory (obj.hpp, ply.hpp, stl.hpp, off.hpp, gltf.hpp, csv.hpp).
+// Files into sets: a mesh from OBJ, PLY, STL, OFF or glTF, spheres from CSV. Formats and exact rules:
+// docs/reference/formats.md. The parsers beneath work on text and bytes in memory (obj.hpp, ply.hpp, stl.hpp, off.hpp,
+// gltf.hpp, csv.hpp).
 
 #include <filesystem>
 #include <string>
