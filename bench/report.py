@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Writes the figures of README.md and docs/*.md from bench/results/*/*.json, and checks that they are the ones.
+"""Writes the figures of README.md and the pages below docs from bench/results/*/*.json, and checks that they are the ones.
 
 usage: report.py [--check]                  compares the pages with the results; fails where they differ
        report.py --write                    writes the pages and docs/figures
@@ -18,6 +18,7 @@ checksum instead.
 
 import argparse
 import json
+import os
 import re
 import subprocess
 import sys
@@ -174,7 +175,16 @@ def results_pages():
 
 
 def pages():
-    return [ROOT / "README.md"] + sorted((ROOT / "docs").glob("*.md")) + results_pages()[1]
+    """All pages but those that tests write whole."""
+    return [ROOT / "README.md"] + sorted(set((ROOT / "docs").rglob("*.md")) - set(results_pages()[0]))
+
+
+def linked_from(text, folder):
+    """What a program wrote for a page of docs, with its links as a page of another folder has to write them."""
+    def link(match):
+        return f"]({os.path.relpath(ROOT / 'docs' / match[1], folder)}"
+
+    return text if folder == ROOT / "docs" else re.sub(r"\]\((?![a-z]+:|#)([^)#\s]+)", link, text)
 
 
 def as_written(text):
@@ -188,15 +198,15 @@ def as_written(text):
     return int(match[1], 16) == made
 
 
-def expected(text, results, problems):
-    """The page as the results would have it."""
+def expected(text, folder, results, problems):
+    """The page of that folder as the results would have it."""
     def made(match, known, kind):
         name = match["name"]
         if name not in known:
             problems.append(f"{kind} {name}: no program makes it")
             return match["text"]
         try:
-            return known[name](results)
+            return linked_from(known[name](results), folder)
         except Missing as problem:
             if kind == "table" and problem.name in NOT_MEASURED:
                 where, what = problem.name.split("/")
@@ -327,7 +337,7 @@ def check(results):
     problems = list(rows_and_results(results)) + list(undated_results(results))
     for path in pages():
         text, here = path.read_text(encoding="utf-8"), []
-        made = expected(text, results, here)
+        made = expected(text, path.parent, results, here)
         if made != text:
             for old, new in zip(text.split("\n"), made.split("\n")):
                 if old != new:
@@ -338,7 +348,7 @@ def check(results):
         here += [f"line {n}: a table of figures that no program writes" for n in loose_tables(text)]
         here += [f"line {n}: {words!r} reads like a measurement, and no program writes it"
                  for n, words in loose_numbers(text)]
-        here += [f"{plot} is not there" for plot in re.findall(r"\]\(((?:docs/)?figures/[^)]*)\)",
+        here += [f"{plot} is not there" for plot in re.findall(r"\]\(((?:docs/|(?:\.\./)+)?figures/[^)]*)\)",
                                                                text) if not (path.parent / plot).exists()]
         problems += [f"{path.relative_to(ROOT)}: {problem}" for problem in here]
     for path in results_pages()[0]:
@@ -354,7 +364,7 @@ def write(results):
     problems = []
     for path in pages():
         text = path.read_text(encoding="utf-8")
-        made = expected(text, results, problems)
+        made = expected(text, path.parent, results, problems)
         if made != text:
             path.write_text(made, encoding="utf-8")
             print(f"written: {path.relative_to(ROOT)}")
@@ -382,6 +392,8 @@ def page(out, results):
         print(f"written: {out.parent / name}")
         lines += [f"![{name}]({name})", ""]
     for name, make in report_tables.TABLES.items():
+        if name.startswith("measured-"):  # the head of a page of docs/results
+            continue
         before = results.asked
         try:
             text = make(results)

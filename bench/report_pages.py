@@ -9,7 +9,7 @@ from report_predicates import from_tests
 from report_queries import BUILDERS, LABELS, SIZES, SPHERES, TRIANGLES, of_size
 
 
-# --- README, docs/costs.md --------------------------------------------------------------------------------------------------
+# --- README, docs/results/costs.md --------------------------------------------------------------------------------------------------
 
 def paragraph(text):
     return textwrap.wrap(" ".join(text.split()), 125, break_long_words=False, break_on_hyphens=False) + [""]
@@ -25,7 +25,7 @@ def cost_peers(results):
     rows = []
 
     def add(work, peer, over, ours, theirs, link):
-        rows.append([f"[{work}](docs/{link})", peer, f"{over:.2f}", ours, theirs])
+        rows.append([f"[{work}]({link})", peer, f"{over:.2f}", ours, theirs])
 
     def wrong(r, name, of):
         return f"{whole(r.get(name, 'wrong'))} of {whole(of)}"
@@ -41,21 +41,21 @@ def cost_peers(results):
     triangles = results["cpu/triangles"]
     for peer, name in (("cgal", "CGAL's exact predicates"), ("fcl", "FCL")):
         add("two triangles: do they touch", name, triangles.get("pair/filtered/double/20") / triangles.get(f"pair/{peer}/double/20"), "exact",
-            "exact" if peer == "cgal" else "not counted", "costs.md")
+            "exact" if peer == "cgal" else "not counted", "results/costs.md")
     distance = results["cpu/distance"]
     add("distance of two scans that are apart", "FCL", distance.get("distance/scan/apart/oriented") / distance.get("distance/scan/apart/fcl"),
-        "not counted", "not counted", "benchmarks.md#distances")
+        "not counted", "not counted", "results/distance.md#distances")
     rays = results["cpu/raycast"]
     for peer, name in (("embree", "Embree"), ("tinybvh", "tinybvh")):
         at = [f"raycast/coherent/{of}/serial" for of in ("wide_sah/filtered", f"{peer}/float")]
         add("first hits of a camera's rays", name, rays.get(at[0]) / rays.get(at[1]), *(wrong(rays, row, rays.get(row, "rays")) for row in at),
-            "benchmarks.md#rays")
+            "results/rays.md")
     near = results["cpu/nearest"]
     for peer, name in (("fcpw", "FCPW"), ("embree", "Embree")):
         row = f"nearest/{peer}/serial/100000"
         points = whole(near.get(row, "points"))
         add("nearest triangles of points far away", name, near.get("nearest/oriented_sah/serial/100000") / near.get(row), f"0 of {points}",
-            f"{whole(near.get(row, 'wrong'))} of {points}", "benchmarks.md#nearest-points")
+            f"{whole(near.get(row, 'wrong'))} of {points}", "results/distance.md#nearest-points")
     winding = results["cpu/winding"]
     row = "armadillo_345944/libigl/2"
     add("winding numbers, as near to the true ones", "libigl", winding.get(row, "like"), *(f"{winding.get(row, 'rms'):.0e} off",) * 2, "results/winding.md")
@@ -152,7 +152,44 @@ def cost_motion(results):
         {shown(cuda.get(f'{at}/frame'))} ms, with the refit, on the {cuda.context['device']}.""")
 
 
-# --- docs/benchmarks.md -----------------------------------------------------------------------------------------------------
+# --- docs/benchmarks.md, docs/results -----------------------------------------------------------------------------------------
+
+# The results of each page of docs/results that a program fills.
+RESULTS_OF = {
+    "trade": ["cpu/trade", "cpu/trade_others", "cuda/trade", "cuda/trade_others", "cuda/trade_solids", "cuda/trade_within", "cuda/trade_hulls"],
+    "spheres": ["cpu/spheres_mesh", "cuda/spheres_mesh"],
+    "triangles": ["cpu/triangles", "cpu/families", "cpu/ties", "cuda/triangles", "cuda/ties"],
+    "distance": ["cpu/nearest", "cpu/distance", "cpu/within", "cuda/nearest", "cuda/distance"],
+    "trees": ["cpu/builders", "cpu/fronts", "cuda/builders", "cuda/fronts"],
+    "convex": ["cpu/hulls"],
+    "rays": ["cpu/raycast", "cuda/raycast"],
+    "bodies": ["cpu/bodies", "cuda/bodies"],
+    "meshes": ["cpu/meshes", "cpu/any", "cpu/descents", "cpu/validate", "cuda/meshes", "cuda/schedules", "cuda/validate"],
+    "motion": ["cpu/motion", "cpu/pair_rules", "cuda/motion", "cuda/motion_flying", "cuda/pair_rules"],
+    "extremes": ["cpu/extremes", "cuda/extremes"],
+    "scaling": ["cpu/cores", "cpu/cores_busy", "cpu/distributed"],
+    "devices": ["cuda/devices", "cuda/devices_large", "cuda/devices_divided"],
+    "footprint": ["cpu/footprint", "cpu/footprint_build", "cuda/footprint"],
+}
+
+
+def measured(page):
+    """The head of a page: which commands measure it, and on which machines that was done."""
+    def make(results):
+        lines, there = ["```sh"], [results[name] for name in RESULTS_OF[page]]
+        for kind in ("cpu", "cuda"):
+            names = [name.split("/")[1] for name in RESULTS_OF[page] if name.startswith(kind)]
+            lines += [f"sh cmake/report.sh --into-docs --{kind} {' '.join(f'--only {name}' for name in names)}"] if names else []
+        where = dict.fromkeys(r.context["device"] if "device" in r.context else r.context["machine"] for r in there)
+        dates = sorted(r.context["date"] for r in there)
+        when = dates[0] if dates[0] == dates[-1] else f"{dates[0]} to {dates[-1]}"
+        return lines + ["```", ""] + paragraph(f"Measured on: {'; '.join(where)}; {when}. Each table says which. How: [benchmarks](benchmarks.md#how-it-is-measured).")
+    return make
+
+
+for of_page in RESULTS_OF:
+    in_table(f"measured-{of_page}")(measured(of_page))
+
 
 @in_table("results-pairs")
 def results_pairs(results):

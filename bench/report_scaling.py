@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The tables of docs/scaling.md: what bench/cores.cpp and bench/distributed.cpp measured, and a model of costs on many ranks."""
+"""The tables of docs/results/scaling.md: what bench/cores.cpp and bench/distributed.cpp measured, and a model of costs on many ranks."""
 
 import math
 

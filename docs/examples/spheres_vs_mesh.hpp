@@ -30,7 +30,7 @@
 namespace spheres_vs_mesh {
 
 /// `auto` takes brute force where there are fewer spheres or fewer triangles than this, and a BVH elsewhere: building the
-/// tree costs about as much as testing each triangle against so many spheres (measured: docs/benchmarks.md).
+/// tree costs about as much as testing each triangle against so many spheres (measured: docs/results/spheres.md).
 inline constexpr std::size_t brute_force_below = 50;
 
 struct settings : example::common_settings {

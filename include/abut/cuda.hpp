@@ -6,8 +6,8 @@
 #include <abut/config.hpp>
 
 // Why not nvcc 12: answers are exact if the compiler keeps the arithmetic as it is written, and ptxas has been seen to make
-// wrong code of these headers (docs/numerics.md). All tests on devices were made with nvcc 13; older ones were never tried.
-// Who has to use nvcc 12 says ABUT_ALLOW_UNTESTED_NVCC (config.hpp).
+// wrong code of these headers (docs/numerics/compilers.md). All tests on devices were made with nvcc 13; older ones were
+// never tried. Who has to use nvcc 12 says ABUT_ALLOW_UNTESTED_NVCC (config.hpp).
 #if !defined(__CUDACC__) || !defined(__CUDACC_VER_MAJOR__)
 #error abut/cuda.hpp is for .cu files that nvcc compiles: include abut/abut.hpp in files for other compilers
 #include <abut/stopped_by_the_error_above>

@@ -382,7 +382,7 @@ TEST_CASE("verbs: in a parallel region of the caller's there is one thread, unle
 
 TEST_CASE("verbs: several threads of the host at a time, each with more threads than there are processors") {
     const unsigned processors = std::max(std::thread::hardware_concurrency(), 1u);
-#ifdef __clang__  // LLVM's runtime 14 can crash where all these are far more threads than processors (docs/guide.md, Platforms)
+#ifdef __clang__  // LLVM's runtime 14 can crash where all these are far more threads than processors (docs/guide/platforms.md, Platforms)
     const unsigned hosts_at_once = 2, threads = processors + 1;
 #else
     const unsigned hosts_at_once = 6, threads = 4 * processors;

@@ -83,7 +83,7 @@ const char* wrong_with_nearest(const hull<T>& h, const test::point_list<T>& poin
 struct hull_distance_tally {
     std::uint64_t pairs = 0, touching = 0;
     double distance = 0, point = 0,
-           nearest = 0;  ///< the worst ones, less the last rounding to T, in units of 2^-53 D (docs/numerics.md)
+           nearest = 0;  ///< the worst ones, less the last rounding to T, in units of 2^-53 D (docs/numerics/distances.md)
 };
 
 template <scalar T>
@@ -405,7 +405,7 @@ TEMPLATE_TEST_CASE("distance of hulls and planes: as by definition, in every fam
 }
 
 // Small shapes far from the origin, where a coordinate's own rounding is all that a point may be off: it happens once, not for
-// a point of the core and again for the radius. The bound is that of docs/numerics.md, without a factor.
+// a point of the core and again for the radius. The bound is that of docs/numerics/distances.md, without a factor.
 TEMPLATE_TEST_CASE("distance of round shapes: points are rounded once where coordinates are large", "", float, double) {
     using T = TestType;
     const wide u(unit_roundoff<T>);

@@ -2,8 +2,8 @@
 #pragma once
 
 // Two triangles in every configuration that the source of these tests (Maffina, 2012, figures 3.5 and 3.6) checked by eye,
-// and in those that it leaves out. Written by hand in small integers, with what the two have in common; docs/numerics.md
-// shows them drawn.
+// and in those that it leaves out. Written by hand in small integers, with what the two have in common;
+// docs/numerics/triangles.md shows them drawn.
 //
 // A triangle is placed against the other's plane by how many of its corners lie above (+), on (0) and below (-) it; which
 // side is above does not matter. What it shares with that plane lies on the line in which the planes meet: nothing, a

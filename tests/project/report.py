@@ -43,14 +43,14 @@ def append(page, lines):
 
 
 MUTATIONS = {
-    "a digit of a table": lambda r: change_digit(r / "docs" / "benchmarks.md", "trade-cpu"),
+    "a digit of a table": lambda r: change_digit(r / "docs" / "results" / "trade.md", "trade-cpu"),
     "a digit of README": lambda r: change_digit(r / "README.md", "cost-peers"),
     "a table that no program writes": lambda r: append(r / "docs" / "building.md",
                                                        "\n| what | ms |\n| --- | ---: |\n| a query | 1.25 |\n"),
     "a measurement in a sentence": lambda r: append(r / "docs" / "building.md", "\nA query takes 1.25\nms here.\n"),
     "a factor in a sentence": lambda r: append(r / "README.md", "\nIt is 17.4 times faster.\n"),
     "a share in a sentence": lambda r: append(r / "docs" / "results" / "contacts.md", "\nIt keeps some 80 % of them.\n"),
-    "a rate in a sentence": lambda r: append(r / "docs" / "guide.md", "\nIt reads half a million inputs a second.\n"),
+    "a rate in a sentence": lambda r: append(r / "docs" / "guide" / "rays.md", "\nIt reads half a million inputs a second.\n"),
     "bytes in a sentence": lambda r: append(r / "docs" / "building.md", "\nA tree of it takes 3.5 MiB here.\n"),
     "so many of so many in a sentence": lambda r: append(r / "docs" / "building.md", "\nIt finds 1,234 of the 5,678.\n"),
     "a number that the source has no more": lambda r: replace(r / "tests" / "project" / "viewer" / "read.test.mjs",
@@ -64,7 +64,7 @@ MUTATIONS = {
     "a number with about in a sentence": lambda r: append(r / "docs" / "building.md", "\nIt sends about 160 and 13.\n"),
     "a block of an unknown name": lambda r: append(r / "docs" / "building.md",
                                                    "<!-- nobody: begin -->\n<!-- nobody: end -->\n"),
-    "a block without an end": lambda r: replace(r / "docs" / "benchmarks.md", "<!-- trade-cpu: end -->\n", ""),
+    "a block without an end": lambda r: replace(r / "docs" / "results" / "trade.md", "<!-- trade-cpu: end -->\n", ""),
     "results that are gone": lambda r: (r / "bench" / "results" / "cpu" / "trade.json").unlink(),
     "other results": lambda r: replace(r / "bench" / "results" / "cpu" / "trade.json", '"ns": ', '"ns": 7'),
     "results that no row makes": lambda r: replace(r / "cmake" / "report.sh", "cpu ties bench_ties ", "# "),
@@ -223,7 +223,7 @@ def try_write(root):
         made = copy / "bench" / "results" / "cpu" / "footprint_build.json"
         made.write_text(made.read_text(encoding="utf-8").replace('"nvcc_instructions"', '"nvcc_others"'), encoding="utf-8")
         says = report(copy, "--write").stdout
-        kept = "instructions |" in (copy / "docs" / "benchmarks.md").read_text(encoding="utf-8")
+        kept = "instructions |" in (copy / "docs" / "results" / "footprint.md").read_text(encoding="utf-8")
         return [] if kept and "table footprint: the results lack" in says else [f"report.py --write without a column: {says}"]
 
 

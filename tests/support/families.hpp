@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Families of sphere-triangle pairs, each built to break something (docs/numerics.md says what). A pair is a pure function
-// of (seed, family, index), on hosts and devices alike and bit for bit; draws.hpp says how.
+// Families of sphere-triangle pairs, each built to break something (docs/results/wrong-answers.md says what). A pair is a
+// pure function of (seed, family, index), on hosts and devices alike and bit for bit; draws.hpp says how.
 
 #include <cstdint>
 

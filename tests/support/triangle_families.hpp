@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Families of triangle-triangle pairs, each built to break something (docs/numerics.md says what). A pair is a pure function
-// of (seed, family, index), on hosts and devices alike and bit for bit; draws.hpp says how. In each family some pairs touch
-// and some do not.
+// Families of triangle-triangle pairs, each built to break something (docs/results/wrong-answers.md says what). A pair is a
+// pure function of (seed, family, index), on hosts and devices alike and bit for bit; draws.hpp says how. In each family
+// some pairs touch and some do not.
 
 #include <cstdint>
 

@@ -24,7 +24,7 @@ ABUT_HD constexpr std::uint64_t limb_of(const std::uint64_t* a, int n, int i) {
 
 #if ABUT_DEVICE_CODE
 /// r += a b, or r -= a b, modulo 2^(64 n), for an r of n limbs. What hosts do, below, made kernels of nvcc 13.0 write to wild
-/// addresses (docs/numerics.md).
+/// addresses (docs/numerics/compilers.md).
 ABUT_NOINLINE ABUT_HD constexpr void add_product(std::uint64_t* r, int n, const std::uint64_t* a, int limbs_a,
                                                  const std::uint64_t* b, int limbs_b, bool negated) {
     ABUT_ROLLED

@@ -278,7 +278,7 @@ public:
 
     /// Room for `capacity` elements, taken in the order of the policy's stream, which has to outlive it. Not within a
     /// capture. A query may leave `open_capacity` pairs open until a second kernel finishes them: those that its first try
-    /// in floating point cannot decide. By itself 2^21; docs/numerics.md says how many they are. Does not wait. Throws
+    /// in floating point cannot decide. By itself 2^21; docs/results/trade.md says how many they are. Does not wait. Throws
     /// std::bad_alloc, cuda_error.
     template <works_in<Space> Policy>
     async_result(const Policy& policy, std::size_t capacity, std::uint64_t open_capacity = execution::most_open)

@@ -491,8 +491,8 @@ auto ask_least(const Policy& on, const ask_distance& question, const X& x, const
 /// pairs of nodes first. Without a tree on either side each shape of one looks in the other.
 ///
 /// The same bits on every policy, for every index and any number of threads. Distances are computed in double; those that
-/// differ by less than docs/numerics.md says may be taken for each other. Points and distance are those of `distance` of the
-/// two shapes.
+/// differ by less than docs/numerics/distances.md says may be taken for each other. Points and distance are those of
+/// `distance` of the two shapes.
 ///
 /// Of several devices (@ref devices), where both arguments are divided, and of ranks (@ref distributed) each searches its
 /// own parts first; then shapes of b go to whose a-shapes may be as near to them as what was found: to all, where no rank

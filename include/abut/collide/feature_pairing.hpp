@@ -201,7 +201,8 @@ struct feature_pairing {
         using expand_type = expand_features<Within, tree, std::remove_const_t<decltype(overlap)>, view_type>;
         const expand_type expand(trees_x, trees_y, overlap, both, depth(host_policy<Policy> ? 0 : depth_on_device));
         if constexpr (std::same_as<Fronts, no_fronts>) {
-            // Features in motion are crowded in places, and work is dealt out evenly again and again (docs/benchmarks.md).
+            // Features in motion are crowded in places, and work is dealt out evenly again and again
+            // (docs/results/motion.md).
             const execution::scheduled<schedule::static_partition> how{};
             const auto walk = [&](const auto& step) {
                 run([&](const auto& judge, auto&... sinks) { return for_each_descendant(on, how, step, judge, sinks...); });

@@ -496,8 +496,8 @@ struct ask_nearest : question_of_points {
 /// memory, of another library's type as well (shape/rows.hpp).
 ///
 /// The same bits on every policy, for every index and any number of threads. Distances are computed in double; those that
-/// differ by less than docs/numerics.md says may be taken for each other. Without an index every point looks at every shape;
-/// in a grid, points that are far from all shapes look at many.
+/// differ by less than docs/numerics/distances.md says may be taken for each other. Without an index every point looks at
+/// every shape; in a grid, points that are far from all shapes look at many.
 ///
 /// Of several devices (@ref devices) the answer lies in memory of the first one; a divided index is asked in its parts, and
 /// each device holds 32 bytes (double: 48) a point. Of ranks (@ref distributed) a rank's own points look in all parts, and a

@@ -67,7 +67,7 @@ enum class argument : unsigned char {
 
 /// The schedule of a traversal where none is asked for. A host has no lazy stealing, and shares a list instead. On a device
 /// the shared list takes up to an eighth less time where there is work everywhere, and 40 times as much where most of it
-/// lies below a few pairs of nodes (docs/benchmarks.md). For traversals that open one node at a time it is faster
+/// lies below a few pairs of nodes (docs/results/meshes.md). For traversals that open one node at a time it is faster
 /// throughout.
 template <traversal Traversal>
 inline constexpr schedule default_schedule = Traversal == traversal::both_at_once || Traversal == traversal::from_front

@@ -460,8 +460,8 @@ struct ask_winding_number : question_of_points {
 ///
 /// Answers are off by no more than `tolerance`, besides rounding. A tree tells what lies far away together: with a tolerance
 /// of 0, or without a tree, each point looks at every triangle. Rounding is below 2^-45 for each triangle, save where a
-/// point is nearer to an edge than 2^-26 times that edge's length or so (docs/numerics.md). The same bits on every policy
-/// and for any number of threads; with a tolerance trees of other shape may give others.
+/// point is nearer to an edge than 2^-26 times that edge's length or so (docs/numerics/inside.md). The same bits on every
+/// policy and for any number of threads; with a tolerance trees of other shape may give others.
 ///
 /// Several devices (@ref devices) share out the points, and the answer lies in memory of the first one. Triangles are added
 /// up in one order: so each device has the whole mesh, and ranks, of which each has a part, do not take this query.

@@ -105,8 +105,9 @@ struct within_distance : relation {
 ///
 /// The distance is a finite double, 0 or more, and taken exactly. A pair that is exactly so far apart belongs to the answer.
 /// `filtered`, the default, and `exact` decide that exactly, for every finite input, but for cylinders and cones with each
-/// other and for rays, of which they certify it (docs/guide.md); `fast` is approximate. With distance 0 the answer is that of `pairs`. Answers do not depend on the policy, the number of threads or the index. Under a pose that
-/// is said of the placed coordinates, each rounded once, as in all queries (docs/numerics.md).
+/// other and for rays, of which they certify it (docs/guide/distances.md); `fast` is approximate. With distance 0 the answer
+/// is that of `pairs`. Answers do not depend on the policy, the number of threads or the index. Under a pose that is said of
+/// the placed coordinates, each rounded once, as in all queries (docs/numerics.md).
 ///
 /// @par Memory
 /// As in @ref queries.

@@ -27,7 +27,7 @@
 namespace abut::detail {
 
 /// How far a cluster looks, in places to either side. Looking farther costs time in proportion and gains next to nothing
-/// (docs/hierarchies.md).
+/// (docs/results/trees.md).
 inline constexpr std::uint32_t ploc_radius = 4;
 /// Each round makes the tree one level deeper at most. In some rows only one pair joins in a round, as where shapes contain
 /// each other; so neighbours join whatever they are, which halves the row, as soon as there are no more levels than that

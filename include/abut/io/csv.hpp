@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Spheres as comma-separated values: x,y,z,r, or x,y,z where all have one radius. docs/files.md has the exact rules.
+// Spheres as comma-separated values: x,y,z,r, or x,y,z where all have one radius. docs/reference/formats.md has the exact
+// rules.
 
 #include <algorithm>
 #include <array>

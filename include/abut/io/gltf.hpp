@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// glTF 2.0, .glb and .gltf: the triangles of a file's scene, each mesh where its nodes put it. docs/files.md has the exact
-// rules.
+// glTF 2.0, .glb and .gltf: the triangles of a file's scene, each mesh where its nodes put it. docs/reference/formats.md has
+// the exact rules.
 //
 // Not by tinygltf (Debian: libtinygltf-dev): it takes the document apart and leaves it to its user whether an accessor lies
 // inside its buffer, wants images to be decoded or switched off, and has no place in the file for what is wrong.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Wavefront OBJ: the polygons of a file. docs/files.md has the exact rules.
+// Wavefront OBJ: the polygons of a file. docs/reference/formats.md has the exact rules.
 //
 // Statements are read strictly, in one pass: a word that is no number is an error of its line, and so is an index out of
 // range. Positions are rounded once, to nearest.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// OFF, the form of Geomview: the polygons of a file. docs/files.md has the exact rules.
+// OFF, the form of Geomview: the polygons of a file. docs/reference/formats.md has the exact rules.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// PLY: the vertices and faces of a file, ASCII or binary. docs/files.md has the exact rules. One routine reads the rows;
-// where the values come from, text or bytes, is its parameter.
+// PLY: the vertices and faces of a file, ASCII or binary. docs/reference/formats.md has the exact rules. One routine reads
+// the rows; where the values come from, text or bytes, is its parameter.
 
 #include <algorithm>
 #include <bit>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Files into sets: a mesh from OBJ, PLY, STL, OFF or glTF, spheres from CSV. Formats and exact rules: docs/files.md. The
-// parsers beneath work on text and bytes in memory (obj.hpp, ply.hpp, stl.hpp, off.hpp, gltf.hpp, csv.hpp).
+// Files into sets: a mesh from OBJ, PLY, STL, OFF or glTF, spheres from CSV. Formats and exact rules:
+// docs/reference/formats.md. The parsers beneath work on text and bytes in memory (obj.hpp, ply.hpp, stl.hpp, off.hpp,
+// gltf.hpp, csv.hpp).
 
 #include <filesystem>
 #include <string>
@@ -30,7 +31,7 @@ namespace abut::io {
 /// CSV, and of whole scenes as glTF or as a page for a browser. They are the CMake target `abut::io`, and are included one
 /// by one: `<abut/io/read.hpp>`, `<abut/io/write.hpp>`,
 /// `<abut/io/write_gltf.hpp>`, `<abut/io/write_html.hpp>`.
-/// docs/files.md has the exact rules. The parsers beneath take text and bytes in memory.
+/// docs/reference/formats.md has the exact rules. The parsers beneath take text and bytes in memory.
 ///
 /// @par Memory
 /// Everything lies in host memory: `copy_to` brings a set to a device. A file is read as a whole before it is parsed, and a

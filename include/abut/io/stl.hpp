@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// STL: the triangles of a file, binary or ASCII. docs/files.md has the exact rules.
+// STL: the triangles of a file, binary or ASCII. docs/reference/formats.md has the exact rules.
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 #pragma once
 
 // Results into files that other programs open: meshes with values for their faces, and points with normals, as PLY or VTP;
-// meshes alone as STL, OBJ or OFF; pairs of ids as CSV. Layout and who shows what: docs/files.md.
+// meshes alone as STL, OBJ or OFF; pairs of ids as CSV. Layout and who shows what: docs/reference/formats.md.
 
 #include <array>
 #include <concepts>

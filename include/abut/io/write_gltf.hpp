@@ -2,7 +2,7 @@
 #pragma once
 
 // Scenes as binary glTF 2.0: sets, what touches, and motions, for programs that show them. What the format has no words for,
-// such as pairs of ids, stands in the file's extras. Layout: docs/files.md.
+// such as pairs of ids, stands in the file's extras. Layout: docs/reference/formats.md.
 
 #include <array>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Meshes alone, without values for their faces: binary STL, and OBJ and OFF as text. Layout: docs/files.md.
+// Meshes alone, without values for their faces: binary STL, and OBJ and OFF as text. Layout: docs/reference/formats.md.
 
 #include <array>
 #include <charconv>

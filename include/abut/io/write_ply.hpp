@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Meshes and points as binary PLY, the form that most programs read. Layout and who shows what: docs/files.md.
+// Meshes and points as binary PLY, the form that most programs read. Layout and who shows what: docs/reference/formats.md.
 
 #include <array>
 #include <concepts>

@@ -2,7 +2,7 @@
 #pragma once
 
 // Sets other than meshes as PLY or VTP: segments and curves as edges or lines, boxes as meshes of their faces, spheres as
-// points with a radius. Layout: docs/files.md.
+// points with a radius. Layout: docs/reference/formats.md.
 
 #include <array>
 #include <concepts>

@@ -3,7 +3,7 @@
 
 // Meshes and points as VTP, the XML form of VTK's PolyData, which ParaView and all that is made with VTK read. Arrays are
 // in the XML as base64 of their bytes: any XML parser takes the file, every number comes back bit for bit, and nothing
-// depends on how a reader takes decimals apart. Layout: docs/files.md.
+// depends on how a reader takes decimals apart. Layout: docs/reference/formats.md.
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,8 @@
 #pragma once
 
 // `distance` of two shapes: how far apart they are and where, and 0 exactly where they touch, as `intersects` decides. The
-// numbers of shapes that do not touch are measured in nearest_ways.hpp; docs/numerics.md bounds what rounding leaves in
-// them.
+// numbers of shapes that do not touch are measured in nearest_ways.hpp; docs/numerics/distances.md bounds what rounding
+// leaves in them.
 
 #include <concepts>
 #include <cstddef>
@@ -538,7 +538,8 @@ ABUT_INLINE ABUT_HD constexpr auto separation_of(const S& s, const U& t) {
 /// order: points, segments, triangles, spheres, capsules, boxes and convex hulls with each other, and planes with any of
 /// these; and cylinders and cones with all of these and with each other. The distance is 0 exactly where the two touch, as
 /// `intersects` decides. Otherwise it is accurate to a few units in the last place of the shapes' farthest corners
-/// (docs/numerics.md). The same bits on every compiler and device, in constant expressions too. Shapes are finite and valid.
+/// (docs/numerics/distances.md). The same bits on every compiler and device, in constant expressions too. Shapes are finite
+/// and valid.
 ///
 ///     constexpr auto d = abut::distance(abut::sphere<float>{{0, 0, 4}, 1},
 ///                                       abut::triangle<float>{{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}});

@@ -283,7 +283,7 @@ ABUT_HD constexpr length_unit<T> unit_for(const aabb<T>& box, const vec3<T>& p) 
 
 /// The point of a shape that is nearest to `p`: of a point (vec3), segment, triangle, sphere, capsule, cylinder, cone, box,
 /// oriented box or convex hull; the last seven are solid, and p itself is nearest where it is inside. It lies in the box
-/// around the shape. docs/numerics.md says how accurate it is. p and the shape are finite.
+/// around the shape. docs/numerics/distances.md says how accurate it is. p and the shape are finite.
 ///
 ///     const auto q = abut::nearest_point(abut::segment<float>{{0, 0, 0}, {4, 0, 0}}, {1, 2, 0});   // (1, 0, 0)
 /// @ingroup one_pair

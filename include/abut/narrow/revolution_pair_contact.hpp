@@ -15,7 +15,7 @@
 //   where a capsule's ball is: along the way to the nearest point of the other shape, if the axis does not meet it.
 //
 // Slopes are looked at in 16 places of a circle, and in up to 16 times as many where those do not go with a plain curve. So
-// a place may be overlooked where it hardly shows. What is then lost was measured, not proved: docs/contacts.md.
+// a place may be overlooked where it hardly shows. What is then lost was measured, not proved: docs/numerics/contacts.md.
 
 #include <concepts>
 #include <cstddef>

@@ -2,7 +2,7 @@
 #pragma once
 
 // Moving features in plain floating point: the roots of the cubic f of exact_motion.hpp by Newton's iteration within
-// brackets, and areas at each root (X. Provot 1997). Nothing is promised: docs/numerics.md says how often it is wrong.
+// brackets, and areas at each root (X. Provot 1997). Nothing is promised: docs/results/motion.md says how often it is wrong.
 
 #include <abut/arithmetic/arithmetic.hpp>
 #include <abut/arithmetic/magnitude.hpp>

@@ -112,9 +112,9 @@ ABUT_HD constexpr bool intersects_exactly(const S& s, const U& t) {
 }  // namespace detail
 
 /// Whether two closed shapes have a point in common: triangles, segments, rays, points (vec3) and planes, and spheres,
-/// boxes, oriented boxes, capsules, cylinders, cones, convex hulls and half spaces, which are solid, as docs/numerics.md
-/// lists. With `filtered` and `exact` the answer is right for every finite input and the same on each compiler and device;
-/// `fast` is approximate. Constant expressions are decided in integers.
+/// boxes, oriented boxes, capsules, cylinders, cones, convex hulls and half spaces, which are solid, in the pairs that
+/// docs/numerics/last-stage.md lists. With `filtered` and `exact` the answer is right for every finite input and the same on
+/// each compiler and device; `fast` is approximate. Constant expressions are decided in integers.
 ///
 ///     static_assert(abut::intersects(abut::sphere<float>{{0, 0, 5}, 5},
 ///                                    abut::triangle<float>{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}));

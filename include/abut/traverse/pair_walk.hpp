@@ -79,7 +79,7 @@ struct distance_frame {
 };
 
 /// Volumes of two frames (shape/relative_pose.hpp). Polytopes by their boxes: under a pose a slab takes as long as several
-/// boxes do, and queries that compared them all took two to ten times as long (docs/hierarchies.md).
+/// boxes do, and queries that compared them all took two to ten times as long (docs/results/trees.md).
 template <class Volume, scalar T>
 ABUT_INLINE ABUT_HD bool overlaps_posed(const Volume& a, const relative_pose<T>& b_to_a, const Volume& b) {
     return overlaps(a, b_to_a, b);

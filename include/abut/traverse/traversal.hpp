@@ -24,7 +24,7 @@ enum class traversal : unsigned char {
     /// <abut/experimental/descent_rules.hpp>.
     one_first,
     /// The node with the larger box, depth first (rule_walk.hpp). Take it where one set is small beside the other, a tool
-    /// in a landscape: of a hundredth of its triangles or less it takes half the time (docs/benchmarks.md).
+    /// in a landscape: of a hundredth of its triangles or less it takes half the time (docs/results/meshes.md).
     larger_first,
     /// The node of the tree that was not opened last, depth first. It stands between both_at_once and larger_first:
     /// <abut/experimental/descent_rules.hpp>.

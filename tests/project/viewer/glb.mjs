@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A small writer of scenes for tests of docs/viewer, by the description of the format in docs/files.md. It shares no code with
-// the page's reader. `edit` changes the JSON before it is written: that makes files that are wrong.
+// A small writer of scenes for tests of docs/viewer, by the description of the format in docs/reference/formats.md. It
+// shares no code with the page's reader. `edit` changes the JSON before it is written: that makes files that are wrong.
 
 const components = { 5121: Uint8Array, 5123: Uint16Array, 5125: Uint32Array, 5126: Float32Array };
 
