@@ -68,9 +68,16 @@ void check_relations_of_team(const Team& team) {
     for (const std::uint64_t some : of) CHECK(some > 0);
     CHECK((relation(team, list) == of_list));
     CHECK((relation(team, list, {.known_solid = true}) == of_list));
-    const auto expected = relation(on, make_bodies(on, alone, index_of, poses));
+    const auto here = make_bodies(on, alone, index_of, poses);
+    const auto there_all = make_bodies(team, indices, index_of, poses);
+    const auto expected = relation(on, here);
     CHECK(expected.size() > 20);
-    CHECK((relation(team, make_bodies(team, indices, index_of, poses)) == expected));
+    CHECK((relation(team, there_all) == expected));
+    CHECK((relation(team, between(there_all, there_all)) == relation(on, between(here, here))));
+    CHECK((overlaps(team, there_all, {.known_solid = true}) == overlaps(on, here)));
+    std::vector<std::uint8_t> meet;
+    for (const solid_relation truth : of_list) meet.push_back(truth > solid_relation::externally_connected ? 1 : 0);
+    CHECK((overlaps(team, list) == meet));
     const aabb<float> room{{0, 0, 0}, {4, 3, 3}}, cupboard{{3, 0, 0}, {4, 1, 2}};
     CHECK(relation(team, cupboard, room) == solid_relation::tangential_part);
 }
