@@ -501,18 +501,25 @@ void check_scenes_of_solids(const Policy& on, std::uint64_t scenes) {
         const auto each = relation(on, list, {.known_solid = k % 2 == 0});
         auto found = relation(on, scene, {.known_solid = k % 2 == 1});
         CHECK(found == relation(on, make_bodies(on, scene)));
+        const auto meet = overlaps(on, list, {.known_solid = k % 2 == 0});
+        const auto two_that_meet = overlaps(on, make_bodies(on, scene), {.known_solid = k % 2 == 1});
+        std::vector<index_pair> true_ones;
         std::size_t next = 0;
         for (std::uint32_t i = 0; i < 8; ++i) {
             for (std::uint32_t j = 0; j < 8; ++j) {
                 const solid_relation truth = truth_of(all[i], all[j]);
                 ++of[static_cast<int>(truth)];
                 wrong += each[8 * i + j] != truth;
+                const bool is = truth > solid_relation::externally_connected;
+                wrong += meet[8 * i + j] != (is ? 1 : 0);
+                if (is && i < j) true_ones.push_back({i, j});
                 if (i >= j || truth == solid_relation::disconnected) continue;
                 wrong += next >= found.size() || found[next] != body_relation{i, j, truth};
                 ++next;
             }
         }
         CHECK(found.size() == next);
+        CHECK(two_that_meet == true_ones);
         const auto without_last = relation(on, scene, {}, body_options<keep_all, schedule::shared_list, only_below>{.bodies = only_below{7}});
         std::erase_if(found, [](const body_relation& r) { return r.body_b == 7; });
         CHECK(without_last == found);

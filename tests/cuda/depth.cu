@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "collide/depth_cases.hpp"
+#include "collide/solid_list_cases.hpp"
 #include "support/catch.hpp"
 
 namespace abut::test {
@@ -29,6 +30,10 @@ TEMPLATE_TEST_CASE("depth: cuda has the host's bits", "", float, double) {
         const auto p = box(), q = box();
         CHECK(penetration(on, p, q) == penetration(host, p, q));
     }
+}
+
+TEST_CASE("depth: lists and scenes of bricks, cuda") {
+    check_patches_and_depths(cuda{});
 }
 
 }  // namespace abut::test

@@ -4,6 +4,7 @@
 // How solids lie to each other, and stretches of rays inside, where several policies have the solids or parts of them: what is known
 // of their cells, and the answers of one policy.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -15,6 +16,7 @@
 #include <abut/devices/rows.hpp>
 #include <abut/devices/solids.hpp>
 
+#include "collide/patch_cases.hpp"
 #include "collide/solid_cases.hpp"
 #include "support/catch.hpp"
 
@@ -31,6 +33,7 @@ void check_relations_of_team(const Team& team) {
     std::vector<std::uint32_t> index_of;
     std::vector<rigid<float>> poses;
     std::vector<posed_pair<replicated<tree>>> list;
+    std::vector<posed_pair<tree_here>> list_here;
     std::vector<solid_relation> of_list;
     const rigid<float> there{{0, -1, 0, 1, 0, 0, 0, 0, 1}, {2, 0, -1}};
     for (std::uint64_t k = 0; k < 60; ++k) {
@@ -56,6 +59,7 @@ void check_relations_of_team(const Team& team) {
                      here[i].points != on_team[i].points || here[i].curves.size() != on_team[i].curves.size();
         }
         list.push_back({posed(tree_x, there), posed(tree_y, there)});
+        list_here.push_back({posed(make_bvh(on, x), there), posed(make_bvh(on, y), there)});
         of_list.push_back(truth);
         if (k >= 12) continue;
         index_of.push_back(static_cast<std::uint32_t>(indices.size()));
@@ -68,9 +72,31 @@ void check_relations_of_team(const Team& team) {
     for (const std::uint64_t some : of) CHECK(some > 0);
     CHECK((relation(team, list) == of_list));
     CHECK((relation(team, list, {.known_solid = true}) == of_list));
-    const auto expected = relation(on, make_bodies(on, alone, index_of, poses));
+    const auto here = make_bodies(on, alone, index_of, poses);
+    const auto there_all = make_bodies(team, indices, index_of, poses);
+    const auto expected = relation(on, here);
     CHECK(expected.size() > 20);
-    CHECK((relation(team, make_bodies(team, indices, index_of, poses)) == expected));
+    CHECK((relation(team, there_all) == expected));
+    CHECK((relation(team, between(there_all, there_all)) == relation(on, between(here, here))));
+    CHECK((overlaps(team, there_all, {.known_solid = true}) == overlaps(on, here)));
+    std::vector<std::uint8_t> meet;
+    for (const solid_relation truth : of_list) meet.push_back(truth > solid_relation::externally_connected ? 1 : 0);
+    CHECK((overlaps(team, list) == meet));
+    const auto patches_here = contact_patches(on, list_here), patches_there = contact_patches(team, list);
+    CHECK(std::equal(patches_here.begin(), patches_here.end(), patches_there.begin(), patches_there.end(), [](const auto& x, const auto& y) { return are_same(x, y); }));
+    const auto of_bodies = contact_patches(on, here), of_bodies_there = contact_patches(team, there_all);
+    CHECK(std::equal(of_bodies.begin(), of_bodies.end(), of_bodies_there.begin(), of_bodies_there.end(), [](const auto& x, const auto& y) {
+        return x.body_a == y.body_a && x.body_b == y.body_b && are_same(x.patches, y.patches);
+    }));
+    const std::vector few(list.begin(), list.begin() + 7);
+    const std::vector few_here(list_here.begin(), list_here.begin() + 7);
+    CHECK((penetration(team, few, {.tolerance = 2}) == penetration(on, few_here, {.tolerance = 2})));
+    const auto only_four = body_options<keep_all, schedule::shared_list, only_below>{.bodies = only_below{4}};
+    CHECK((penetration(team, there_all, {.tolerance = 2}, only_four) == penetration(on, here, {.tolerance = 2}, only_four)));
+    const auto far = hausdorff(team, few, {.tolerance = 1}), far_here = hausdorff(on, few_here, {.tolerance = 1});
+    CHECK(std::equal(far.begin(), far.end(), far_here.begin(), far_here.end(), [](const auto& x, const auto& y) {
+        return x.a_from_b == y.a_from_b && x.b_from_a == y.b_from_a;
+    }));
     const aabb<float> room{{0, 0, 0}, {4, 3, 3}}, cupboard{{3, 0, 0}, {4, 1, 2}};
     CHECK(relation(team, cupboard, room) == solid_relation::tangential_part);
 }

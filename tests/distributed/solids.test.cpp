@@ -164,6 +164,15 @@ TEST_CASE("distributed: relations of lists, and what is no solid") {
     CHECK(expected[8] == solid_relation::externally_connected);
     const auto mine_of_list = part_of(list, division::uneven, on.rank(), on.size());
     CHECK(lists_of_all(on.ranks(), relation(on, mine_of_list)) == expected);
+    CHECK(lists_of_all(on.ranks(), overlaps(on, mine_of_list)) == overlaps(serial{}, list));
+    std::vector<std::size_t> number, number_of_mine;
+    for (const auto& some : contact_patches(serial{}, list)) number.push_back(some.size());
+    for (const auto& some : contact_patches(on, mine_of_list)) number_of_mine.push_back(some.size());
+    CHECK(lists_of_all(on.ranks(), number_of_mine) == number);
+    std::vector<double> depth, depth_of_mine;
+    for (const auto& some : penetration(serial{}, list, {.tolerance = 0.1})) depth.push_back(some.least);
+    for (const auto& some : penetration(on, mine_of_list, {.tolerance = 0.1})) depth_of_mine.push_back(some.least);
+    CHECK(lists_of_all(on.ranks(), depth_of_mine) == depth);
     std::vector<global_tagged_crossing<float>> common;
     for (const auto& c : to_host(crossings(serial{}, list))) common.push_back({c.pair, c.a, c.b, c.common});
     CHECK(common.size() > 50);

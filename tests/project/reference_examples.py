@@ -66,7 +66,7 @@ NAMES = {
                                      "const auto& crates = robots;",
     "collide/mixed_bodies.hpp": GEAR + "const std::vector machines{abut::posed(gear, here)}; const auto& crates = machines;"
                                        "const auto& grains = machines;",
-    "collide/contact_patches.hpp": "static const auto push = [](auto&&...) {};",
+    "collide/contact_patches.hpp": GEAR + "const std::vector<abut::posed_object<decltype(gear)>> scene;" + "static const auto push = [](auto&&...) {};",
     "collide/spans.hpp": GEAR + "const auto& tree = gear; const abut::rays<float> rays; std::vector<float> thickness(9);",
     "collide/inside.hpp": "const auto& scan = mesh;",
     "collide/hull_edges.hpp": "const std::vector<std::vector<abut::vec3<float>>> lists;",
@@ -75,6 +75,8 @@ NAMES = {
                            "const std::vector<std::pair<abut::rigid<float>, abut::rigid<float>>> roadmap;"
                            "static const auto turn_back = [] {};",
     "collide/row_each.hpp": "const auto room = abut::make_bvh(on, mesh); const abut::spheres<float> links;",
+    "collide/relation.hpp": GEAR + "const std::vector<abut::posed_object<decltype(gear)>> scene;",
+    "collide/penetration.hpp": GEAR + "const std::vector<abut::posed_object<decltype(gear)>> scene;",
     "collide/touching_bodies.hpp": GEAR + "const std::vector<abut::posed_object<decltype(gear)>> scene;",
     "collide/ray_options.hpp": "const abut::rays<float> rays; const auto index = abut::make_bvh(on, mesh);",
     "collide/list_each.hpp": GEAR + "std::vector<abut::posed_pair<decltype(gear)>> configurations;",

@@ -55,6 +55,15 @@ struct contact_patch {
     std::vector<patch_point<T>> points;   ///< corners, as they lie around the normal
 };
 
+/// Two bodies whose surfaces meet, and their patches.
+/// @ingroup solids
+template <scalar T>
+struct body_patches {
+    std::uint32_t body_a;                   ///< position of the first body
+    std::uint32_t body_b;                   ///< position of the second one, which is higher
+    std::vector<contact_patch<T>> patches;  ///< one at least; their normals point from body_b to body_a
+};
+
 namespace detail {
 
 /// What is said of one region.
@@ -323,6 +332,36 @@ inline ask_patches patches_by(const patch_options& options) {
     return {bool(options.known_solid), options.most_points};
 }
 
+/// Those of lists and scenes (solid_entries.hpp).
+struct patches_of_entries : ask_patches {
+    template <scalar T>
+    using answer = std::vector<contact_patch<T>>;
+    template <scalar T>
+    using told = body_patches<T>;
+
+    template <class Entries>
+    [[nodiscard]] auto find(Entries& entries) const {
+        using T = typename Entries::T;
+        if (!known_solid) entries.require_solids();
+        std::vector<answer<T>> found(entries.size());
+        auto contacts = entries.template contacts<filtered>(std::vector<std::uint32_t>(entries.size(), 0));
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            const std::span<const crossing<T>> some = contacts.of(i);
+            if (some.empty()) continue;
+            found[i] = patches_of<T>(entries.a()[entries[i].a], entries.b()[entries[i].b], some, most_points);
+        }
+        return found;
+    }
+    template <scalar T>
+    static bool is_told(const std::vector<contact_patch<T>>& of) {
+        return !of.empty();
+    }
+    template <scalar T>
+    static body_patches<T> tell(const index_pair& of, std::vector<contact_patch<T>> patches) {
+        return {of.a, of.b, std::move(patches)};
+    }
+};
+
 }  // namespace detail
 
 /// @addtogroup solids
@@ -364,6 +403,25 @@ inline ask_patches patches_by(const patch_options& options) {
 template <executor On, class X, class Y>
 [[nodiscard]] auto contact_patches(const On& on, const X& a, const Y& b, const patch_options& options = {}) {
     return ask_solids(on, detail::patches_by(options), a, b);
+}
+
+/// The patches of each entry of a list, in its order: a std::vector of std::vector of `contact_patch` in host memory, each as of
+/// its two trees alone. Lists are those of `relation`; a rank gets the patches of its own entries. Crossings of all entries are
+/// found in one go; what follows is one thread's of the host, or of each device. Each body takes as much there as alone, and is
+/// kept for the call. What is no solid is named by its entry.
+template <executor On, detail::list_of_pairs List>
+[[nodiscard]] auto contact_patches(const On& on, const List& list, const patch_options& options = {}) {
+    return detail::answers_of_solids(on, detail::patches_of_entries{detail::patches_by(options)}, list);
+}
+
+/// The patches of all bodies of a scene: a std::vector of `body_patches` in host memory, of all two whose surfaces meet, sorted by
+/// body_a, then body_b. Scenes and `which` are those of `relation`, and the rest is as of a list.
+///
+///     for (const auto& [a, b, patches] : abut::contact_patches(on, scene)) use(a, b, patches.front().normal);
+template <executor On, detail::scene_of_bodies Scene, class Which = body_options<>>
+    requires(detail::are_body_options<Which>)
+[[nodiscard]] auto contact_patches(const On& on, const Scene& scene, const patch_options& options = {}, const Which& which = {}) {
+    return detail::told_of_solids(on, detail::patches_of_entries{detail::patches_by(options)}, scene, which);
 }
 
 ///@}

@@ -337,11 +337,13 @@ public:
     [[nodiscard]] farthest_point back(farthest_point f) const {
         return {length_back(f.lower), length_back(f.upper), back(f.point), f.face, back(f.nearest), f.nearest_face};
     }
-    /// In the unit of the search.
-    [[nodiscard]] double tolerance(double asked, const char* function) const {
+    static void check_tolerance(double asked, const char* function) {
         if (!(asked >= 0) || !(asked < infinity<double>)) {
             throw error(std::string(function) + ": tolerance is " + shortest(asked) + "; expected a finite length, 0 or more");
         }
+    }
+    /// In the unit of the search, of one that is all right.
+    [[nodiscard]] double tolerance(double asked) const {
         const vec3<double> size = bring(box_.upper) - bring(box_.lower);
         return asked > 0 ? length(asked) : 0.001 * length_of(size);
     }

@@ -42,6 +42,36 @@ struct write_to_places {
     ABUT_HD void operator()(std::size_t i) const { out[places[i]] = found[i]; }
 };
 
+/// Of executors other than a policy.
+template <class On>
+consteval bool refuse_mixed_list() {
+    static_assert(sizeof(On) == 0, "abut: lists of several kinds are asked by one policy; ask several devices or ranks about each kind");
+    return false;
+}
+
+/// f(entries, places) of the entries of each kind that the list has, `places` of which says where they are in it.
+template <class... A, class... B, class F>
+void for_each_kind_of_entries(const std::vector<std::variant<posed_pair<A, B>...>>& list, const char* function, const F& f) {
+    check_count(list.size(), function);
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        if (list[i].valueless_by_exception()) {
+            throw error(std::string(function) + ": entry " + std::to_string(i) + " of the list holds no pair");
+        }
+    }
+    const auto ask_kind = [&]<std::size_t K>(std::integral_constant<std::size_t, K>) {
+        std::vector<std::variant_alternative_t<K, std::variant<posed_pair<A, B>...>>> some;
+        std::vector<std::uint32_t> places;
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            if (list[i].index() != K) continue;
+            some.push_back(std::get<K>(list[i]));
+            places.push_back(static_cast<std::uint32_t>(i));
+        }
+        if (!some.empty()) f(some, places);
+    };
+    [&]<std::size_t... K>(std::index_sequence<K...>) { (ask_kind(std::integral_constant<std::size_t, K>()), ...); }
+    (std::index_sequence_for<A...>());
+}
+
 template <class Policy, class Each, class... A, class... B, class Options>
 auto ask_mixed_entries(const Policy& on, const Each& each, const std::vector<std::variant<posed_pair<A, B>...>>& list,
                        const Options& options, const char* function) {
@@ -51,22 +81,8 @@ auto ask_mixed_entries(const Policy& on, const Each& each, const std::vector<std
     using first_form = std::tuple_element_t<0, std::tuple<form_of_list<A, B>...>>;
     using found_type = typename Each::template found_type<first_form>;
     if constexpr (alike && (Each::template can_be_asked<Policy, form_of_list<A, B>>() && ...)) {
-        check_count(list.size(), function);
-        for (std::size_t i = 0; i < list.size(); ++i) {
-            if (list[i].valueless_by_exception()) {
-                throw error(std::string(function) + ": entry " + std::to_string(i) + " of the list holds no pair");
-            }
-        }
         execution::buffer_of<Policy, found_type> out(on, list.size());
-        const auto ask_kind = [&]<std::size_t K>(std::integral_constant<std::size_t, K>) {
-            std::vector<std::variant_alternative_t<K, std::variant<posed_pair<A, B>...>>> some;
-            std::vector<std::uint32_t> places;
-            for (std::size_t i = 0; i < list.size(); ++i) {
-                if (list[i].index() != K) continue;
-                some.push_back(std::get<K>(list[i]));
-                places.push_back(static_cast<std::uint32_t>(i));
-            }
-            if (some.empty()) return;
+        for_each_kind_of_entries(list, function, [&](const auto& some, const std::vector<std::uint32_t>& places) {
             execution::buffer_of<Policy, std::uint32_t> there(on, places.size());
             upload(on, places.data(), places.size(), there.data());
             const places_of_entries position{places.data(), there.data()};
@@ -80,9 +96,7 @@ auto ask_mixed_entries(const Policy& on, const Each& each, const std::vector<std
             } else {
                 write(options);
             }
-        };
-        [&]<std::size_t... K>(std::index_sequence<K...>) { (ask_kind(std::integral_constant<std::size_t, K>()), ...); }
-        (std::index_sequence_for<A...>());
+        });
         return result<found_type, space_of<Policy>>(std::move(out));
     } else {
         return result<found_type, space_of<Policy>>();

@@ -12,13 +12,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include <abut/collide/distance.hpp>
+#include <abut/collide/executor.hpp>
 #include <abut/collide/farthest_point.hpp>
 #include <abut/collide/query.hpp>
 #include <abut/collide/relation.hpp>
+#include <abut/collide/solid_entries.hpp>
 #include <abut/collide/solid_regions.hpp>
 
 namespace abut {
@@ -49,17 +52,19 @@ struct penetration_bounds {
     friend constexpr bool operator==(const penetration_bounds&, const penetration_bounds&) = default;
 };
 
+/// Two bodies whose interiors meet, and how deep they are in each other.
+template <scalar T>
+struct body_penetration {
+    std::uint32_t body_a;          ///< position of the first body
+    std::uint32_t body_b;          ///< position of the second one, which is higher
+    penetration_bounds<T> bounds;  ///< `move` is that of body_a
+
+    friend constexpr bool operator==(const body_penetration&, const body_penetration&) = default;
+};
+
 ///@}
 
 namespace detail {
-
-template <scalar T>
-std::vector<triangle<T>> triangles_of_faces(const std::vector<mesh_face<T>>& faces) {
-    std::vector<triangle<T>> all;
-    all.reserve(faces.size());
-    for (const mesh_face<T>& f : faces) all.push_back(f.corners);
-    return all;
-}
 
 /// Looks for a short move of a that takes it out of b.
 template <class Policy, scalar T>
@@ -166,6 +171,82 @@ private:
     double length_ = infinity<double>;
 };
 
+/// A vertex of each part of a surface.
+template <scalar T>
+std::vector<vec3<T>> vertices_of_parts(const solid_surface<T>& surface) {
+    std::vector<vec3<T>> vertices;
+    for (std::uint32_t p = 0; p < surface.parts(); ++p) vertices.push_back(surface.vertex_of_part(p));
+    return vertices;
+}
+/// Of two whose interiors meet: their triangles, and a vertex of each part.
+template <class Policy, scalar T>
+penetration_bounds<T> bounds_of_overlap(const Policy& on, const std::vector<triangle<T>>& of_a, const std::vector<triangle<T>>& of_b,
+                                        std::vector<vec3<T>> parts_a, std::vector<vec3<T>> parts_b, const penetration_options& options) {
+    penetration_bounds<T> found;
+    found.overlap = true;
+    unit_of_search unit;
+    unit.see(of_a);
+    unit.see(of_b);
+    const double tolerance = unit.tolerance(options.tolerance);
+    const measured_surface<Policy> x(on, unit.bring(of_a)), y(on, unit.bring(of_b));
+    const farthest_point deepest_a = farthest_search<Policy>(x, y, true).run(tolerance, options.most_pieces),
+                         deepest_b = farthest_search<Policy>(y, x, true).run(tolerance, options.most_pieces);
+    const double least = std::max(deepest_a.lower, deepest_b.lower);
+    separating_move<Policy, T> move(on, of_a, of_b, std::move(parts_a), std::move(parts_b), unit);
+    std::vector<vec3<double>> ways{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    const auto middle = [&](const std::vector<triangle<T>>& of) {
+        aabb<T> box = empty_box<T>();
+        for (const triangle<T>& t : of) box = merge(box, bounds(t));
+        return 0.5 * (unit.bring(widened(box.lower)) + unit.bring(widened(box.upper)));
+    };
+    ways.push_back(middle(of_a) - middle(of_b));
+    if (deepest_a.face != no_id) ways.push_back(deepest_a.nearest - deepest_a.point);
+    if (deepest_b.face != no_id) ways.push_back(deepest_b.point - deepest_b.nearest);
+    for (const vec3<double>& way : ways) move.try_along(way, least, tolerance);
+    for (int k = 0; k < 16 && move.improve(least, tolerance); ++k) {
+    }
+    found.a_in_b = unit.back(deepest_a);
+    found.b_in_a = unit.back(deepest_b);
+    found.move = move.move();
+    found.least = unit.length_back(least);
+    found.most = unit.length_back(move.length());
+    return found;
+}
+
+/// Those of lists and scenes (solid_entries.hpp).
+struct penetration_of_entries {
+    static constexpr const char* function = "abut::penetration";
+    template <scalar T>
+    using answer = penetration_bounds<T>;
+    template <scalar T>
+    using told = body_penetration<T>;
+    penetration_options options;
+
+    template <class Entries>
+    [[nodiscard]] auto find(Entries& entries) const {
+        using T = typename Entries::T;
+        unit_of_search::check_tolerance(options.tolerance, function);
+        const solid_options known{.known_solid = options.known_solid};
+        const auto regions = entries.template regions<filtered>(known, false, [](const common_regions& all) { return all.both; });
+        std::vector<penetration_bounds<T>> found(entries.size());
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            if (!regions[i].found.both) continue;
+            const solid_surface<T>&a = entries.a()[entries[i].a].surface(), &b = entries.b()[entries[i].b].surface();
+            found[i] = bounds_of_overlap<std::remove_cvref_t<decltype(entries.policy())>, T>(
+                entries.policy(), triangles_of_faces(a.faces()), triangles_of_faces(b.faces()), vertices_of_parts(a), vertices_of_parts(b), options);
+        }
+        return found;
+    }
+    template <scalar T>
+    static bool is_told(const penetration_bounds<T>& of) {
+        return of.overlap;
+    }
+    template <scalar T>
+    static body_penetration<T> tell(const index_pair& of, const penetration_bounds<T>& bounds) {
+        return {of.a, of.b, bounds};
+    }
+};
+
 }  // namespace detail
 
 /// @addtogroup solids
@@ -194,49 +275,35 @@ template <execution_policy Policy, class X, class Y>
         return penetration(on, detail::as_solid(on, a, function), detail::as_solid(on, b, function), options);
     } else if constexpr (detail::are_solids<X, Y>()) {
         using T = detail::scalar_of_argument<X>;
-        penetration_bounds<T> found;
+        detail::unit_of_search::check_tolerance(options.tolerance, function);
         detail::faces_of_solids<T> faces(detail::faces_on_host(on, detail::make_operand(on, a, function)),
                                       detail::faces_on_host(on, detail::make_operand(on, b, function)));
-        const auto of_a = detail::triangles_of_faces(faces.first), of_b = detail::triangles_of_faces(faces.second);
-        detail::unit_of_search unit;
-        unit.see(of_a);
-        unit.see(of_b);
-        const double tolerance = unit.tolerance(options.tolerance, function);
         const solid_options known{.known_solid = options.known_solid};
         const detail::solids_by_policy<Policy, X, Y> solids(on, a, b, function, &faces);
-        found.overlap = detail::common_interior<filtered>(function, known).find(solids).found.both;
-        if (!found.overlap) return found;
-        const detail::measured_surface<Policy> x(on, unit.bring(of_a)), y(on, unit.bring(of_b));
-        const farthest_point deepest_a = detail::farthest_search<Policy>(x, y, true).run(tolerance, options.most_pieces),
-                             deepest_b = detail::farthest_search<Policy>(y, x, true).run(tolerance, options.most_pieces);
-        const double least = std::max(deepest_a.lower, deepest_b.lower);
-
-        const auto parts_of = [&](std::vector<detail::mesh_face<T>>& of) {
-            const detail::solid_surface<T> surface(std::move(of), function);
-            std::vector<vec3<T>> vertices;
-            for (std::uint32_t p = 0; p < surface.parts(); ++p) vertices.push_back(surface.vertex_of_part(p));
-            return vertices;
-        };
-        detail::separating_move<Policy, T> move(on, of_a, of_b, parts_of(faces.first), parts_of(faces.second), unit);
-        std::vector<vec3<double>> ways{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-        const auto middle = [&](const std::vector<triangle<T>>& of) {
-            aabb<T> box = empty_box<T>();
-            for (const triangle<T>& t : of) box = merge(box, bounds(t));
-            return 0.5 * (unit.bring(detail::widened(box.lower)) + unit.bring(detail::widened(box.upper)));
-        };
-        ways.push_back(middle(of_a) - middle(of_b));
-        if (deepest_a.face != no_id) ways.push_back(deepest_a.nearest - deepest_a.point);
-        if (deepest_b.face != no_id) ways.push_back(deepest_b.point - deepest_b.nearest);
-        for (const vec3<double>& way : ways) move.try_along(way, least, tolerance);
-        for (int k = 0; k < 16 && move.improve(least, tolerance); ++k) {
-        }
-        found.a_in_b = unit.back(deepest_a);
-        found.b_in_a = unit.back(deepest_b);
-        found.move = move.move();
-        found.least = unit.length_back(least);
-        found.most = unit.length_back(move.length());
-        return found;
+        if (!detail::common_interior<filtered>(function, known).find(solids).found.both) return penetration_bounds<T>();
+        const auto of_a = detail::triangles_of_faces(faces.first), of_b = detail::triangles_of_faces(faces.second);
+        return detail::bounds_of_overlap<Policy, T>(on, of_a, of_b,
+                                                    detail::vertices_of_parts(detail::solid_surface<T>(std::move(faces.first), function)),
+                                                    detail::vertices_of_parts(detail::solid_surface<T>(std::move(faces.second), function)), options);
     }
+}
+
+/// The same of each entry of a list, in its order: a std::vector of `penetration_bounds` in host memory. Which entries overlap is
+/// asked of all in one go; the others are searched one after another. Lists are those of `relation`. Of several devices each has its
+/// share, and a rank gets those of its own entries.
+template <executor On, detail::list_of_pairs List>
+[[nodiscard]] auto penetration(const On& on, const List& list, const penetration_options& options = {}) {
+    return detail::answers_of_solids(on, detail::penetration_of_entries{options}, list);
+}
+
+/// The same of all bodies of a scene: a std::vector of `body_penetration` in host memory, of all two whose interiors meet, sorted by
+/// body_a, then body_b. Scenes and `which` are those of `relation`.
+///
+///     for (const auto& [a, b, depth] : abut::penetration(on, scene)) use(a, b, depth.least);
+template <executor On, detail::scene_of_bodies Scene, class Which = body_options<>>
+    requires(detail::are_body_options<Which>)
+[[nodiscard]] auto penetration(const On& on, const Scene& scene, const penetration_options& options = {}, const Which& which = {}) {
+    return detail::told_of_solids(on, detail::penetration_of_entries{options}, scene, which);
 }
 
 ///@}

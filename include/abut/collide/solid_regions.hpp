@@ -110,6 +110,14 @@ auto faces_on_host(const Policy& on, const Operand& x) {
 }
 
 template <scalar T>
+std::vector<triangle<T>> triangles_of_faces(const std::vector<mesh_face<T>>& faces) {
+    std::vector<triangle<T>> all;
+    all.reserve(faces.size());
+    for (const mesh_face<T>& f : faces) all.push_back(f.corners);
+    return all;
+}
+
+template <scalar T>
 aabb<T> box_of(const std::vector<mesh_face<T>>& faces) {
     aabb<T> box = empty_box<T>();
     for (const auto& f : faces) box = merge(box, bounds(f.corners));
@@ -433,7 +441,8 @@ template <scalar T, class Enough>
 regions_and_touch regions_by_rule(const std::vector<mesh_face<T>>& a, const std::vector<mesh_face<T>>& b, inside_rule rule,
                                   const Enough& is_enough) {
     if (!overlaps(box_of(a), box_of(b))) return {{false, true, true}, false};
-    return winding_regions<T>(a, b, rule).find(is_enough);
+    const winding_surface<T> of_a(a), of_b(b);
+    return winding_regions<T>(of_a, of_b, rule).find(is_enough);
 }
 
 /// What two solids have in common, until that is enough, and, if that is asked, whether their surfaces touch.

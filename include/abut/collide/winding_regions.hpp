@@ -70,32 +70,64 @@ void require_turns(const std::vector<mesh_face<T>>& faces, inside_rule rule, con
     require_closed(serial{}, all.view(), function, rule != inside_rule::parity, false, rule, element);
 }
 
+/// A surface that is taken by how often it goes round a point, and where it meets itself. For many pairs with one surface that is
+/// found once. Not for several threads at a time.
+template <scalar T>
+class winding_surface {
+public:
+    using id = std::uint32_t;
+
+    /// Of faces for which require_turns holds. Those without area bound nothing, and are left out.
+    explicit winding_surface(const std::vector<mesh_face<T>>& all) {
+        for (const mesh_face<T>& f : all) {
+            if (has_area(f.corners)) faces_.push_back(f);
+        }
+        if (faces_.empty()) return;
+        const mesh<T> surface = mesh_of_faces(faces_);
+        const auto vertices = surface.view().vertices;
+        for (std::size_t v = 0; v < vertices.count; ++v) vertices_.push_back(vertices[v]);
+        const serial on;
+        tree_.emplace(make_bvh(on, surface));
+        own_ = to_host(self_crossings(on, *tree_));
+    }
+    [[nodiscard]] const std::vector<mesh_face<T>>& faces() const { return faces_; }
+    /// By their numbers. Those that no face with an area has are somewhere.
+    [[nodiscard]] const std::vector<vec3<T>>& vertices() const { return vertices_; }
+    /// What faces of it have in common with each other.
+    [[nodiscard]] const std::vector<crossing<T>>& own() const { return own_; }
+    /// And with those of another one.
+    [[nodiscard]] std::vector<crossing<T>> with(const winding_surface& other) const {
+        if (!tree_ || !other.tree_) return {};
+        return to_host(crossings(serial{}, *tree_, *other.tree_));
+    }
+    /// f(face) of all faces that meet a box.
+    template <class F>
+    void for_each_in(const aabb<T>& box, const F& f) const {
+        if (!tree_) return;
+        for (const index_pair& found : to_host(pairs(serial{}, *tree_, box))) f(found.a);
+    }
+    /// The largest z of a face.
+    [[nodiscard]] T top() const { return tree_ ? tree_->bounds().upper.z : -infinity<T>; }
+
+private:
+    std::vector<mesh_face<T>> faces_;
+    std::vector<vec3<T>> vertices_;
+    std::optional<decltype(make_bvh(serial{}, mesh<T>()))> tree_;
+    std::vector<crossing<T>> own_;
+};
+
+/// What two have in common. Both have to be there as long as this is.
 template <scalar T>
 class winding_regions {
 public:
     using id = std::uint32_t;
 
-    /// Of faces for which require_turns holds. Those without area bound nothing.
-    winding_regions(const std::vector<mesh_face<T>>& a, const std::vector<mesh_face<T>>& b, inside_rule rule) : rule_(rule) {
-        id first_vertex = 0;
-        for (const auto* of : {&a, &b}) {
-            first_of_b_ = static_cast<id>(faces_.size());
-            id next = first_vertex;
-            for (mesh_face<T> f : *of) {
-                if (!has_area(f.corners)) continue;
-                for (id& v : f.vertex) v += first_vertex, next = std::max(next, v + 1);
-                faces_.push_back(f);
-            }
-            first_vertex = next;
+    winding_regions(const winding_surface<T>& a, const winding_surface<T>& b, inside_rule rule)
+        : rule_(rule), of_{&a, &b}, first_of_b_(static_cast<id>(a.faces().size())), first_vertex_of_b_(static_cast<id>(a.vertices().size())),
+          top_(std::max(a.top(), b.top())) {
+        for (const auto* of : of_) {
+            for (const mesh_face<T>& f : of->faces()) unit_.look_at(f.corners.a), unit_.look_at(f.corners.b), unit_.look_at(f.corners.c);
         }
-        if (faces_.empty()) return;
-        const mesh<T> both = mesh_of_faces(faces_);
-        const auto vertices = both.view().vertices;
-        vertices_.assign(vertices.count, {});
-        for (std::size_t v = 0; v < vertices.count; ++v) vertices_[v] = vertices[v];
-        for (const mesh_face<T>& f : faces_) unit_.look_at(f.corners.a), unit_.look_at(f.corners.b), unit_.look_at(f.corners.c);
-        tree_.emplace(make_bvh(on_, both));
-        top_ = tree_->bounds().upper.z;
         find_spots();
     }
 
@@ -160,51 +192,86 @@ private:
         std::array<int, 4> sign;
     };
 
+    // Faces and vertices of both, those of the first one first.
+    [[nodiscard]] std::size_t faces() const { return of_[0]->faces().size() + of_[1]->faces().size(); }
+    [[nodiscard]] std::size_t vertices() const { return of_[0]->vertices().size() + of_[1]->vertices().size(); }
+    [[nodiscard]] const triangle<T>& face(id f) const {
+        return f < first_of_b_ ? of_[0]->faces()[f].corners : of_[1]->faces()[f - first_of_b_].corners;
+    }
+    [[nodiscard]] const vec3<T>& vertex(id v) const {
+        return v < first_vertex_of_b_ ? of_[0]->vertices()[v] : of_[1]->vertices()[v - first_vertex_of_b_];
+    }
+    /// What faces have in common, which have their numbers among those of both.
+    struct meeting {
+        id a, b;
+        int count;
+        std::array<mesh_feature, 6> of_a, of_b;
+    };
+    [[nodiscard]] meeting among_both(const crossing<T>& c, bool a_is_second, bool b_is_second) const {
+        const auto named = [&](mesh_feature f, bool is_second) {
+            const id by = !is_second ? 0 : f.part == mesh_part::in_face ? first_of_b_ : first_vertex_of_b_;
+            f.first += by, f.second += by;
+            return f;
+        };
+        meeting m{c.a + (a_is_second ? first_of_b_ : 0), c.b + (b_is_second ? first_of_b_ : 0), c.count, {}, {}};
+        for (int i = 0; i < c.count; ++i) {
+            m.of_a[static_cast<std::size_t>(i)] = named(c.feature_a(i), a_is_second);
+            m.of_b[static_cast<std::size_t>(i)] = named(c.feature_b(i), b_is_second);
+        }
+        return m;
+    }
+
     [[nodiscard]] static aabb<T> common_box(const aabb<T>& a, const aabb<T>& b) {
         return {{std::max(a.lower.x, b.lower.x), std::max(a.lower.y, b.lower.y), std::max(a.lower.z, b.lower.z)},
                 {std::min(a.upper.x, b.upper.x), std::min(a.upper.y, b.upper.y), std::min(a.upper.z, b.upper.z)}};
     }
     [[nodiscard]] aabb<T> box_of_feature(const mesh_feature& f) const {
-        if (f.part == mesh_part::in_face) return bounds(faces_[f.first].corners);
-        const vec3<T>&p = vertices_[f.first], &q = vertices_[f.second];
+        if (f.part == mesh_part::in_face) return bounds(face(f.first));
+        const vec3<T>&p = vertex(f.first), &q = vertex(f.second);
         return merge(aabb<T>{p, p}, aabb<T>{q, q});
     }
 
     void find_spots() {
-        const auto found = to_host(self_crossings(on_, *tree_));
-        std::vector<char> is_touched(faces_.size(), 0);
-        for (const crossing<T>& c : found) {
-            if (c.a < first_of_b_ && c.b >= first_of_b_) is_touched[c.a] = is_touched[c.b] = 1;
+        std::vector<meeting> found;
+        std::vector<char> is_touched(faces(), 0);
+        for (const crossing<T>& c : of_[0]->with(*of_[1])) {
+            found.push_back(among_both(c, false, true));
+            is_touched[found.back().a] = is_touched[found.back().b] = 1;
         }
-        id_buffer<serial> parents(on_, faces_.size());
-        const execution::disjoint_sets groups = execution::make_disjoint_sets(on_, parents);
+        for (const bool second : {false, true}) {
+            for (const crossing<T>& c : of_[second ? 1 : 0]->own()) found.push_back(among_both(c, second, second));
+        }
+        id_buffer<serial> parents(serial{}, faces());
+        const execution::disjoint_sets groups = execution::make_disjoint_sets(serial{}, parents);
         const auto unite = [&](id f, id g) {
             if (is_touched[f] == 0 && is_touched[g] == 0) groups.unite(f, g);
         };
-        std::vector<id> face_at(vertices_.size(), none);  // one that the other solid does not touch, if there is one
-        for (id f = 0; f < faces_.size(); ++f) {
-            for (const id v : faces_[f].vertex) {
+        std::vector<id> face_at(vertices(), none);  // one that the other solid does not touch, if there is one
+        for (id f = 0; f < faces(); ++f) {
+            const bool second = f >= first_of_b_;
+            for (const id of : of_[second ? 1 : 0]->faces()[second ? f - first_of_b_ : f].vertex) {
+                const id v = second ? of + first_vertex_of_b_ : of;
                 if (face_at[v] == none || is_touched[face_at[v]] != 0) face_at[v] = f;
                 unite(face_at[v], f);
             }
         }
-        for (const crossing<T>& c : found) unite(c.a, c.b);
+        for (const meeting& c : found) unite(c.a, c.b);
         const auto group_of = [&](std::initializer_list<id> all) {
             for (const id f : all) {
                 if (is_touched[f] == 0) return groups.root(f);
             }
             return none;
         };
-        for (id v = 0; v < vertices_.size(); ++v) {
+        for (id v = 0; v < vertices(); ++v) {
             if (face_at[v] == none) continue;
             const mesh_feature at{mesh_part::at_vertex, v, v};
             spots_.push_back({box_of_feature(at), group_of({face_at[v]}), {at, at}, {none, none, none}});
         }
-        std::vector<std::vector<id>> cut_by(faces_.size());  // of each face: those of higher numbers that cut it
-        for (const crossing<T>& c : found) {
+        std::vector<std::vector<id>> cut_by(faces());  // of each face: those of higher numbers that cut it
+        for (const meeting& c : found) {
             if (c.count == 2) cut_by[c.a].push_back(c.b);
             for (int i = 0; i < c.count; ++i) {
-                mesh_feature p = c.feature_a(i), q = c.feature_b(i);
+                mesh_feature p = c.of_a[static_cast<std::size_t>(i)], q = c.of_b[static_cast<std::size_t>(i)];
                 if (p.part == mesh_part::at_vertex || q.part == mesh_part::at_vertex) continue;
                 if (q < p) std::swap(p, q);
                 spots_.push_back({common_box(box_of_feature(p), box_of_feature(q)), group_of({c.a, c.b}), {p, q}, {none, none, none}});
@@ -213,14 +280,14 @@ private:
         for (auto& all : cut_by) std::sort(all.begin(), all.end());
         const mesh_feature nothing{mesh_part::in_face, none, none};
         std::vector<id> three;
-        for (id f = 0; f < faces_.size(); ++f) {
+        for (id f = 0; f < faces(); ++f) {
             for (const id g : cut_by[f]) {
                 three.clear();
                 std::set_intersection(cut_by[f].begin(), cut_by[f].end(), cut_by[g].begin(), cut_by[g].end(), std::back_inserter(three));
-                const aabb<T> box = common_box(bounds(faces_[f].corners), bounds(faces_[g].corners));
+                const aabb<T> box = common_box(bounds(face(f)), bounds(face(g)));
                 for (const id h : three) {
-                    if (!overlaps(box, bounds(faces_[h].corners))) continue;
-                    spots_.push_back({common_box(box, bounds(faces_[h].corners)), group_of({f, g, h}), {nothing, nothing}, {f, g, h}});
+                    if (!overlaps(box, bounds(face(h)))) continue;
+                    spots_.push_back({common_box(box, bounds(face(h))), group_of({f, g, h}), {nothing, nothing}, {f, g, h}});
                 }
             }
         }
@@ -230,7 +297,7 @@ private:
         std::stable_sort(spots_.begin(), spots_.end(), [](const spot& x, const spot& y) { return x.group + 1 < y.group + 1; });
     }
 
-    [[nodiscard]] face_in_integers integers_of(id f) const { return {unit_, faces_[f].corners}; }
+    [[nodiscard]] face_in_integers integers_of(id f) const { return {unit_, face(f)}; }
     [[nodiscard]] place_in_space place_of(const spot& s) const {
         place_in_space v{{}, big_int(1)};
         const mesh_feature &p = s.of[0], &q = s.of[1];
@@ -240,17 +307,17 @@ private:
             v.over = dot(f.normal, f.corner[0]) * cross(g.normal, h.normal) + dot(g.normal, g.corner[0]) * cross(h.normal, f.normal) +
                      dot(h.normal, h.corner[0]) * cross(f.normal, g.normal);
         } else if (p.part == mesh_part::at_vertex) {
-            v.over = unit_(vertices_[p.first]);
+            v.over = unit_(vertex(p.first));
         } else {
             // p is an edge.
-            const vec3<big_int> from = unit_(vertices_[p.first]), way = unit_(vertices_[p.second]) - from;
+            const vec3<big_int> from = unit_(vertex(p.first)), way = unit_(vertex(p.second)) - from;
             big_int part;
             if (q.part == mesh_part::in_face) {
                 const face_in_integers f = integers_of(q.first);
                 v.under = dot(f.normal, way);
                 part = dot(f.normal, f.corner[0] - from);
             } else {
-                const vec3<big_int> start = unit_(vertices_[q.first]), other = unit_(vertices_[q.second]) - start, across = cross(way, other);
+                const vec3<big_int> start = unit_(vertex(q.first)), other = unit_(vertex(q.second)) - start, across = cross(way, other);
                 v.under = dot(across, across);
                 part = dot(cross(start - from, other), across);
             }
@@ -283,28 +350,29 @@ private:
         std::vector<std::size_t> through;
         bool is_on[2] = {false, false};
         int of_three = 0;
-        for (const auto& found : to_host(pairs(on_, *tree_, column))) {
-            const bool second = found.a >= first_of_b_;
-            const face_in_integers f = integers_of(found.a);
+        const auto look_at = [&](id which, bool second) {
+            const face_in_integers f = integers_of(which);
             const vec3<big_int> to[3] = {v.over - v.under * f.corner[0], v.over - v.under * f.corner[1], v.over - v.under * f.corner[2]};
             const int up = f.normal.z.sign();
             const std::array<int, 4> sign{f.turn(0, to[0]), f.turn(1, to[1]), f.turn(2, to[2]), f.height(to[0])};
             if (sign[3] == 0 && has_in_plane(f, to)) {
                 through.push_back(near.size());
                 is_on[second ? 1 : 0] = true;
-                of_three += std::find(s.faces.begin(), s.faces.end(), found.a) != s.faces.end();
+                of_three += std::find(s.faces.begin(), s.faces.end(), which) != s.faces.end();
             } else if (up == 0) {
-                continue;
+                return;
             }
             if (up != 0 && sign[3] != up && sign[0] != -up && sign[1] != -up && sign[2] != -up) {
                 if (sign[0] != 0 && sign[1] != 0 && sign[2] != 0 && sign[3] != 0) {
                     turns[second ? 1 : 0] += up;
-                    continue;
+                    return;
                 }
                 open.push_back({near.size(), second, up, sign});
             }
             near.push_back(f);
-        }
+        };
+        of_[0]->for_each_in(column, [&](id f) { look_at(f, false); });
+        of_[1]->for_each_in(column, [&](id f) { look_at(f + first_of_b_, true); });
         if (s.has_three() && of_three != 3) return 0;
         unsigned cells = 0;
         const auto are_all = [&] {
@@ -357,14 +425,11 @@ private:
         return cells;
     }
 
-    serial on_;
     inside_rule rule_;
-    std::vector<mesh_face<T>> faces_;  ///< of both, those of the first one first
-    id first_of_b_ = 0;
-    std::vector<vec3<T>> vertices_;
+    std::array<const winding_surface<T>*, 2> of_;
+    id first_of_b_, first_vertex_of_b_;
+    T top_;
     whole_numbers<T> unit_;
-    std::optional<decltype(make_bvh(serial{}, mesh<T>()))> tree_;
-    T top_ = 0;
     std::vector<spot> spots_;
 };
 

@@ -5,17 +5,18 @@
 // two, of lists and of bodies. All devices look for faces that pass through each other, and for those that touch. What is the
 // host's is done once; faces of divided solids come together there. Of lists and bodies each device decides its share.
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <tuple>
+#include <iterator>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <abut/collide/contact_patches.hpp>
 #include <abut/collide/relation.hpp>
 #include <abut/collide/self_pairs.hpp>
+#include <abut/collide/solid_entries.hpp>
 #include <abut/devices/bodies.hpp>
 #include <abut/devices/divide.hpp>
 #include <abut/devices/query.hpp>
@@ -172,28 +173,44 @@ inline constexpr bool has_faces<replicated<Index>> = has_faces<Index>;
 
 /// Each device decides its entries.
 template <execution::policy_team Team, class Question, class IndexA, class IndexB>
-std::vector<solid_relation> ask_relations(const Team& team, const Question& question,
-                                          const std::vector<posed_pair<replicated<IndexA>, replicated<IndexB>>>& list) {
-    std::vector<solid_relation> found(list.size());
+auto ask_solid_list(const Team& team, const Question& question, const std::vector<posed_pair<replicated<IndexA>, replicated<IndexB>>>& list) {
+    std::vector<typename Question::template answer<typename IndexA::scalar_type>> found(list.size());
     share_entries(team, list, question.function, [&](int k, const auto& mine, const entries_of_part& position) {
-        const auto some = question.of_list(team[k], mine.list, position);
-        for (std::size_t i = 0; i < some.size(); ++i) found[position(i)] = some[i];
+        auto some = ask_solid_list(team[k], question, mine.list, position);
+        for (std::size_t i = 0; i < some.size(); ++i) found[position(i)] = std::move(some[i]);
     });
     return found;
 }
 /// Each device has all bodies, and decides those near each other that its share of the tree over them finds.
-template <execution::policy_team Team, class Question, class Index, class Which>
-std::vector<body_relation> ask_relations(const Team& team, const Question& question, const replicated<bodies<Index>>& all,
-                                         const Which& which) {
-    require_as_many(team, all, question.function);
-    std::vector<body_relation> found;
-    for (const auto& some : each_of(team, [&](int k) { return question.of_bodies(team[k], all[k], which, share_of(team, k)); })) {
-        found.insert(found.end(), some.begin(), some.end());
+template <class Team, class Question, class Scene, class Which, class There>
+auto told_by_shares(const Team& team, const Question& question, const Scene&, const Which& which, const There& there) {
+    std::vector<typename Question::template told<typename solids_in_scene<Scene>::T>> found;
+    for (auto& some : each_of(team, [&](int k) { return ask_solid_scene(team[k], question, there(k), which, share_of(team, k)); })) {
+        std::move(some.begin(), some.end(), std::back_inserter(found));
     }
-    std::sort(found.begin(), found.end(), [](const body_relation& x, const body_relation& y) {
-        return std::tie(x.body_a, x.body_b) < std::tie(y.body_a, y.body_b);
-    });
+    sort_told(found);
     return found;
+}
+template <execution::policy_team Team, class Question, class Index, class Which>
+auto ask_solid_scene(const Team& team, const Question& question, const replicated<bodies<Index>>& all, const Which& which) {
+    require_as_many(team, all, question.function);
+    return told_by_shares(team, question, all, which, [&](int k) { return all[k]; });
+}
+template <execution::policy_team Team, class Question, class A, class B, class Which>
+auto ask_solid_scene(const Team& team, const Question& question, const bodies_between<A, B>& both, const Which& which) {
+    require_as_many(team, both.a, question.function);
+    require_as_many(team, both.b, question.function);
+    return told_by_shares(team, question, both, which, [&](int k) { return between(both.a[k], both.b[k]); });
+}
+template <execution::policy_team Team, class Question, class... Indices, class Which>
+auto ask_solid_scene(const Team&, const Question&, const mixed_bodies<Indices...>&, const Which&) {
+    refuse_mixed<Team>();
+    return std::vector<typename Question::template told<typename mixed_bodies<Indices...>::scalar_type>>();
+}
+template <execution::policy_team Team, class Question, class... A, class... B>
+auto ask_solid_list(const Team&, const Question&, const std::vector<std::variant<posed_pair<A, B>...>>&) {
+    refuse_mixed_list<Team>();
+    return std::vector<typename Question::template answer<float>>();
 }
 
 }  // namespace abut::detail

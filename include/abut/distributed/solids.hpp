@@ -163,11 +163,20 @@ auto ask_solids(const distributed<Local>& on, const Question& question, const X&
 
 /// Of this rank's own entries.
 template <class Local, class Question, class IndexA, class IndexB>
-std::vector<solid_relation> ask_relations(const distributed<Local>& on, const Question& question,
-                                          const std::vector<posed_pair<IndexA, IndexB>>& list) {
-    std::vector<solid_relation> found;
-    ask_own_entries(on, list, [&](const entries_of_rank& position) { found = question.of_list(on.local(), list, position); });
+auto ask_solid_list(const distributed<Local>& on, const Question& question, const std::vector<posed_pair<IndexA, IndexB>>& list) {
+    std::vector<typename Question::template answer<typename IndexA::scalar_type>> found;
+    ask_own_entries(on, list, [&](const entries_of_rank& position) { found = ask_solid_list(on.local(), question, list, position); });
     return found;
+}
+template <class Local, class Question, class... A, class... B>
+auto ask_solid_list(const distributed<Local>&, const Question&, const std::vector<std::variant<posed_pair<A, B>...>>&) {
+    refuse_mixed_list<Local>();
+    return std::vector<typename Question::template answer<float>>();
+}
+template <class Local, class Question, class Scene, class Which>
+auto ask_solid_scene(const distributed<Local>&, const Question&, const Scene&, const Which&) {
+    static_assert(sizeof(Scene) == 0, "abut: bodies lie on one machine: ask those of a rank by its local policy");
+    return std::vector<typename Question::template told<float>>();
 }
 
 }  // namespace abut::detail
