@@ -41,10 +41,7 @@ struct write_start_contacts {
         if (found[i].id == no_id || !is_zero(found[i].t)) return;
         const auto mover = rows[i];
         const auto met = shapes[found[i].id];
-        const bool touch = with_cores_on_way(mover, met, [](const cores_on_way<T>& both) {
-            difference_simplex at;
-            return has_touched_by(both, {0, 0}, at);
-        });
+        const bool touch = touch_at_start(mover, met);
         if (!touch) return;
         const contact<T> c = contact_in_any_order(mover.start, met);
         out[i] = {static_cast<std::uint32_t>(i), found[i].id, c.point, c.normal, c.depth};
