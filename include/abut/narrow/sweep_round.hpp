@@ -14,6 +14,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include <abut/arithmetic/error_free.hpp>
 #include <abut/arithmetic/limits.hpp>
@@ -67,20 +68,30 @@ public:
         point along{0, 0, 0};
         if (!is_searched(size_)) return {0, along, along, along, 0};
         const double off = plain_product(share, size_), near = plain_sum(radius_, plain_product(tolerance, size_));
-        for (int step = 0;; ++step) {
+        for (int step = 0, again = 0;; ++step) {
             plain_solid here = solid_;
             for (point& end : here.end) end = plain_step(end, time, way_);
             plain_simplex at;
             const plain_nearest nearest = search_in_doubles(here, core_, at, along);
             along = is_zero(nearest.along) ? at.along : nearest.along;
-            const double of_along = root(one_double{plain_dot(along, along)}).high;
             found = {time, nearest.on_a, nearest.on_b, nearest.meet ? point{0, 0, 0} : along, nearest.meet ? 0 : nearest.length};
             if (!nearest.is_sure) found.on_solid = at.mean_of(at.on_a), found.on_other = at.mean_of(at.on_b);
-            if (nearest.meet || !(nearest.length > near) || step == most_steps || !(of_along > 0)) return found;
-            const point back = plain_difference(core_.farthest(negated(along)), here.farthest(along));
-            const double gap = plain_sum(plain_sum(plain_dot(along, back) / of_along, -radius_), -off),
-                         speed = plain_dot(along, way_) / of_along;
+            if (nearest.meet || !(nearest.length > near) || step >= most_steps) return found;
+            double gap = plain_sum(gap_along(here, along), -off);
+            if (!(gap > plain_product(0x1p-3, plain_sum(nearest.length, -radius_)))) {
+                // A search that has not come near enough begins again where it ended, or where a closed form of the feature leads to.
+                const plain_guess guess = finish_search(here, core_, at);
+                const point ways[] = {at.mean, guess.along, plain_difference(guess.on_b, guess.on_a)};
+                for (const point& way : ways) {
+                    const double other = plain_sum(gap_along(here, way), -off);
+                    if (other > gap) gap = other, along = way;
+                }
+                if (!(gap > plain_product(0x1p-3, plain_sum(nearest.length, -radius_))) && again++ < most_again) continue;
+            }
             if (!(gap > 0)) return found;
+            found.along = along;
+            const double speed = plain_dot(along, way_) / root(one_double{plain_dot(along, along)}).high;
+            again = 0;
             if (plain_sum(gap, -plain_product(speed, plain_sum(until, -time))) > 0) return {};
             const double next = plain_sum(time, plain_product(gap / speed, 1 - 0x1p-50));
             if (!(next > time)) return found;
@@ -89,6 +100,16 @@ public:
     }
 
 private:
+    static constexpr int most_again = 24;
+
+    /// How far they are apart along a way of any length, at least but for rounding.
+    [[nodiscard]] ABUT_HD constexpr double gap_along(const plain_solid& here, const point& n) const {
+        using namespace contact_math;
+        const double length = root(one_double{plain_dot(n, n)}).high;
+        if (!(length > 0x1p-600)) return -infinity<double>;
+        return plain_sum(plain_dot(n, plain_difference(core_.farthest(negated(n)), here.farthest(n))) / length, -radius_);
+    }
+
     plain_solid solid_;
     point way_;
     const Core& core_;
@@ -185,6 +206,15 @@ ABUT_HD constexpr auto as_ball(const S& s) {
     } else {
         return s;
     }
+}
+
+/// f(both), with what is a ball as one; one of them is.
+template <class S, class U, class F>
+ABUT_HD constexpr auto with_balls(const swept<S>& s, const U& t, const F& f) {
+    const auto a = as_ball(s.start);
+    const auto b = as_ball(t);
+    const swept<std::remove_const_t<decltype(a)>> ball{a, s.way};
+    return !is_ball(t) ? f(ball, t) : !is_ball(s.start) ? f(s, b) : f(ball, b);
 }
 
 /// The meeting of a shape on its way and another one, neither of which is a ball.

@@ -196,11 +196,7 @@ template <arithmetic A, class S, class U>
     requires sweepable_round<S, U>
 ABUT_NOINLINE ABUT_HD constexpr time_bounds sweep_bounds(const swept<S>& s, const U& t, double until) {
     if (is_ball(s.start) || is_ball(t)) {
-        const auto a = as_ball(s.start);
-        const auto b = as_ball(t);
-        if (!is_ball(t)) return sweep_bounds<A>(swept<std::remove_const_t<decltype(a)>>{a, s.way}, t, until);
-        if (!is_ball(s.start)) return sweep_bounds<A>(s, b, until);
-        return sweep_bounds<A>(swept<std::remove_const_t<decltype(a)>>{a, s.way}, b, until);
+        return with_balls(s, t, [until](const auto& a, const auto& b) { return sweep_bounds<A>(a, b, until); });
     }
     double soonest = 0;
     if (have_boxes(s.start, t)) {
@@ -215,6 +211,9 @@ ABUT_NOINLINE ABUT_HD constexpr time_bounds sweep_bounds(const swept<S>& s, cons
 template <arithmetic A, class S, class U>
     requires sweepable_round<S, U>
 ABUT_HD constexpr double sweep_time(const swept<S>& s, const U& t) {
+    if (is_ball(s.start) || is_ball(t)) {
+        return with_balls(s, t, [](const auto& a, const auto& b) { return sweep_time<A>(a, b); });
+    }
     return sweep_bounds<A>(s, t, 1).first;
 }
 template <class S, class U>
@@ -227,11 +226,7 @@ template <class S, class U>
 ABUT_NOINLINE ABUT_HD constexpr sweep_place<scalar_type_of<S>> sweep_place_of(const swept<S>& s, const U& t, double time) {
     using T = scalar_type_of<S>;
     if (is_ball(s.start) || is_ball(t)) {
-        const auto a = as_ball(s.start);
-        const auto b = as_ball(t);
-        if (!is_ball(t)) return sweep_place_of(swept<std::remove_const_t<decltype(a)>>{a, s.way}, t, time);
-        if (!is_ball(s.start)) return sweep_place_of(s, b, time);
-        return sweep_place_of(swept<std::remove_const_t<decltype(a)>>{a, s.way}, b, time);
+        return with_balls(s, t, [time](const auto& a, const auto& b) { return sweep_place_of(a, b, time); });
     }
     using namespace contact_math;
     const round_meeting met = round_meeting_of(s, t, 1);
