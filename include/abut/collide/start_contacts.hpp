@@ -87,7 +87,7 @@ template <execution_policy Policy, scalar T, class X, class Moving>
         using mover = decltype(shape_of_argument<Moving>::type::start);
         using met = typename shape_of_argument<X>::type;
         constexpr bool can = contact_pair<mover, met> || contact_pair<met, mover>;
-        static_assert(can, "abut: there are no contacts of this pair of shapes");
+        static_assert(can, "abut: there are no contacts of this pair of shapes; a shape of your own needs contact_between(s, t) beside it (docs/extending.md)");
         if constexpr (can) {
             const auto x = make_operand(on, index, function);
             const auto rows = make_operand(on, moving, function);
