@@ -41,6 +41,7 @@
 #include <abut/collide/relation.hpp>
 #include <abut/collide/row_each.hpp>
 #include <abut/collide/safe_step.hpp>
+#include <abut/collide/scene_meetings.hpp>
 #include <abut/collide/self_pairs.hpp>
 #include <abut/collide/spans.hpp>
 #include <abut/collide/start_contacts.hpp>

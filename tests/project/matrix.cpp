@@ -46,7 +46,7 @@ std::string queries_of_pair() {
     add(distance_decidable<S, U>, is_certified ? 'w' : 'W');
     add(measurable<S, U>, 'D');
     add(contact_pair<S, U> || contact_pair<U, S>, 'C');
-    add(sweepable_pair<S, U>, 'S');
+    add(sweepable_pair<S, U>, sweepable_round<S, U> ? 's' : 'S');
     return letters.empty() ? "-" : letters;
 }
 

@@ -112,6 +112,18 @@ bool is_near(const vec3<T>& p, const S& s, const rational& near) {
     return square >= 0 && square <= reach * reach;
 }
 
+/// Whether a time is the first one at which an oracle says that shapes have touched, rounded to the nearest double, of two as near to
+/// the lesser; negative for none.
+template <class Oracle>
+bool is_first_time(const Oracle& oracle, double time) {
+    if (!(time >= 0)) return !oracle.touched_by(1);
+    if (time == 0) return oracle.touched_by(0);
+    if (time > 1 || !oracle.touched_by(1) || oracle.touched_by(0)) return false;
+    const double before = std::nextafter(time, 0.0), after = std::nextafter(time, 2.0);
+    const rational low = (rational(before) + rational(time)) / 2, high = (rational(time) + rational(after)) / 2;
+    return oracle.touched_by(high) && !oracle.touched_by(low);
+}
+
 /// Two shapes, one of which goes along a way.
 class sweep_oracle {
 public:
@@ -135,20 +147,47 @@ public:
         if (square < 0) throw "the oracle has no proof";
         return square <= r_ * r_;
     }
-    /// Whether a time is the first one, rounded to the nearest double, of two as near to the lesser; negative for none.
-    [[nodiscard]] bool is_first(double time) const {
-        if (!(time >= 0)) return !touched_by(1);
-        if (time == 0) return touched_by(0);
-        if (time > 1 || !touched_by(1) || touched_by(0)) return false;
-        const double before = std::nextafter(time, 0.0), after = std::nextafter(time, 2.0);
-        const rational low = (rational(before) + rational(time)) / 2, high = (rational(time) + rational(after)) / 2;
-        return touched_by(high) && !touched_by(low);
-    }
+    [[nodiscard]] bool is_first(double time) const { return is_first_time(*this, time); }
 
 private:
     rational_point way_;
     rational r_;
     std::vector<rational_point> differences_;
+};
+
+/// A shape that goes along a way, and a plane or the half space below it. The core's points at both ends are the corners of what it
+/// has passed. A ball around one of them reaches the plane if the foot of its centre there is not farther than the radius.
+class flat_oracle {
+public:
+    template <class S, scalar T>
+    flat_oracle(const S& s, const vec3<T>& way, const vec3<T>& normal, T offset, bool is_solid)
+        : way_(to_rational(way)), normal_(to_rational(normal)), offset_(offset), r_(detail::radius_around_core(s)), is_solid_(is_solid) {
+        const auto core = detail::core_points_of(s);
+        for (std::size_t i = 0; i < core.as_hull().count; ++i) points_.push_back(to_rational(core.as_hull()[i]));
+    }
+    [[nodiscard]] bool touched_by(const rational& time) const {
+        bool over = false, under = false;
+        for (const rational& t : {rational(0), time}) {
+            for (const rational_point& p : points_) {
+                const rational_point at{p.x + t * way_.x, p.y + t * way_.y, p.z + t * way_.z};
+                const rational height = inner(normal_, at) - offset_, square = inner(normal_, normal_);
+                (height > 0 ? over : under) = true;
+                if (height == 0) return true;
+                if (square == 0) continue;
+                const rational share = height / square;
+                const rational_point foot{share * normal_.x, share * normal_.y, share * normal_.z};
+                if (inner(foot, foot) <= r_ * r_) return true;
+            }
+        }
+        return is_solid_ ? under : over && under;
+    }
+    [[nodiscard]] bool is_first(double time) const { return is_first_time(*this, time); }
+
+private:
+    rational_point way_, normal_;
+    rational offset_, r_;
+    bool is_solid_;
+    std::vector<rational_point> points_;
 };
 
 }  // namespace abut::test

@@ -88,7 +88,7 @@ struct all_contacts {
     template <class S, class U>
     static consteval bool takes() {
         constexpr bool can = contact_pair<S, U> || contact_pair<U, S>;
-        static_assert(can, "abut: there are no contacts of this pair of shapes");
+        static_assert(can, "abut: there are no contacts of this pair of shapes; a shape of your own needs contact_between(s, t) beside it (docs/extending.md)");
         return can;
     }
     template <arithmetic A, class Relation>

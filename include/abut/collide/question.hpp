@@ -74,7 +74,8 @@ struct touching : relation {
         static_assert(!both_go, "abut: shapes of one argument go along ways, and those of the other stay: the difference of two "
                                 "ways need be no number");
         constexpr bool is = both_go || decidable<S, U>;
-        static_assert(is, "abut: queries between sets of these two shapes are not supported");
+        static_assert(is, "abut: queries between sets of these two shapes are not supported; a shape of your own needs decide<A>(s, t) and "
+                          "resolve(s, t) beside it (docs/extending.md)");
         return is && !both_go;
     }
 };

@@ -4,9 +4,11 @@
 // reduce_contacts: few contacts that hold two bodies apart nearly as well as all of them do. Two methods: one contact for
 // each cell of a six-dimensional grid over positions and normals, and the contacts that are extreme in fixed directions.
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -339,6 +341,13 @@ template <execution_policy Policy, scalar T>
                                                             : detail::extremes<Policy, T>(on, all.data(), n, frame, options);
     synchronize(on);
     return outcome(std::move(few));
+}
+/// Contacts of many bodies, or of the entries of a list, are refused: which stay is told of one pair of bodies.
+template <execution_policy Policy, class Found, memory_space Space>
+    requires(!std::same_as<Found, contact<std::remove_cvref_t<decltype(Found::depth)>>>)
+void reduce_contacts(const Policy&, const result<Found, Space>&, const reduce_options& = {}) {
+    static_assert(std::same_as<Found, void>, "abut: reduce_contacts takes the contacts of one pair of bodies, a result of contact: those that "
+                                             "contacts(on, a, b) has of the two");
 }
 
 ///@}

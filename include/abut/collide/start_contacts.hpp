@@ -41,10 +41,7 @@ struct write_start_contacts {
         if (found[i].id == no_id || !is_zero(found[i].t)) return;
         const auto mover = rows[i];
         const auto met = shapes[found[i].id];
-        const bool touch = with_cores_on_way(mover, met, [](const cores_on_way<T>& both) {
-            difference_simplex at;
-            return has_touched_by(both, {0, 0}, at);
-        });
+        const bool touch = touch_at_start(mover, met);
         if (!touch) return;
         const contact<T> c = contact_in_any_order(mover.start, met);
         out[i] = {static_cast<std::uint32_t>(i), found[i].id, c.point, c.normal, c.depth};
@@ -90,7 +87,7 @@ template <execution_policy Policy, scalar T, class X, class Moving>
         using mover = decltype(shape_of_argument<Moving>::type::start);
         using met = typename shape_of_argument<X>::type;
         constexpr bool can = contact_pair<mover, met> || contact_pair<met, mover>;
-        static_assert(can, "abut: there are no contacts of this pair of shapes");
+        static_assert(can, "abut: there are no contacts of this pair of shapes; a shape of your own needs contact_between(s, t) beside it (docs/extending.md)");
         if constexpr (can) {
             const auto x = make_operand(on, index, function);
             const auto rows = make_operand(on, moving, function);

@@ -124,8 +124,8 @@ template <class Swept, class Met>
 consteval bool can_go_and_be_met() {
     constexpr bool are = sweepable_pair<decltype(Swept::start), Met>;
     static_assert(are,
-                  "abut: points, segments, triangles, spheres, capsules, boxes, oriented boxes and hulls can be swept, "
-                  "and be met; cylinders, cones, planes and rays cannot");
+                  "abut: points, segments, triangles, spheres, capsules, cylinders, cones, boxes, oriented boxes and hulls can be swept, "
+                  "and be met; planes and half spaces by these; rays cannot");
     return are;
 }
 /// Whether `sweep` takes these arguments.
@@ -248,12 +248,16 @@ struct sweeps_in_parts : ask_sweep<A, Filter> {
 ///
 /// `index` is a tree of any layout, a set, a view or one shape, posed or not. `moving` are shapes with a way each: a set
 /// `shapes<swept<S>>`, a view, or one that `moving(shape, way)` makes. Shapes, on both sides, are points, segments, triangles,
-/// spheres, capsules, boxes, oriented boxes and hulls. All but triangles, segments and points are solid, and triangles are
-/// touched from both sides. Shapes that touch at the start are touched at 0. A way of 0 asks what is touched at the start.
+/// spheres, capsules, cylinders, cones, boxes, oriented boxes and hulls, and with one of these planes and half spaces. All but
+/// planes, triangles, segments and points are solid, and planes and triangles are touched from both sides. Shapes that touch at the start are touched at 0. A way of 0 asks what is touched at the start.
 ///
 /// With `filtered` and `exact` whether a shape is touched is decided exactly, and places on the way are not rounded for that.
 /// Times are the true ones rounded to the nearest double, by which they are compared, and then to the scalar type. So shapes
 /// that are touched at one time are known to be. The same bits on every policy. `fast` is approximate.
+///
+/// Of cylinders and cones that is certified and not exact, whatever is asked. They are never touched later than is told, and
+/// what they are said to pass they do not touch. The time is early by no more than 2^-36 of the sizes (docs/sweeps.md): at it
+/// the two are as near as that. So shapes that pass each other as near may count as touched.
 ///
 /// The point lies on the shape that is touched. The normal has length 1 and points out of that shape; it is zero where shapes
 /// overlap at the start. Both are computed in double at the time of the touch, and nothing is decided by them. Where a shape

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include <abut/collide/executor.hpp>
 #include <abut/collide/options.hpp>
 #include <abut/collide/placed.hpp>
 #include <abut/error.hpp>
@@ -168,10 +169,10 @@ consteval bool can_turn() {
     }
 }
 
-/// An answer of each entry, in the policy's memory; complete when it returns.
-template <class Answer, class Policy, class IndexA, class IndexB>
+/// An answer of each entry, in the policy's memory; complete when it returns. Errors begin with name(i) of an entry.
+template <class Answer, class Policy, class IndexA, class IndexB, class Name>
 auto meetings_of(const Policy& on, const std::vector<moving_pair<IndexA, IndexB>>& list, const meeting_options& options,
-                 const std::string& function, bool is_list) {
+                 const std::string& function, const Name& name) {
     check(options, function);
     const std::size_t n = list.size();
     const gathered_bodies<IndexA> of_a(n, [&](std::size_t i) {
@@ -183,7 +184,7 @@ auto meetings_of(const Policy& on, const std::vector<moving_pair<IndexA, IndexB>
     std::vector<turning_entry> entries;
     entries.reserve(n);
     for (std::size_t i = 0; i < n; ++i) {
-        const std::string where = is_list ? function + ": entry " + std::to_string(i) + " of the list" : function;
+        const std::string where = name(i);
         const auto motion_of = [&](const auto& body, const char* which) {
             return make_rigid_motion(body.from, body.to, body.about, where + ": " + which);
         };
@@ -215,7 +216,8 @@ template <class Answer, class Policy, class IndexA, class IndexB>
 auto ask_meetings(const Policy& on, const std::vector<moving_pair<IndexA, IndexB>>& list, const meeting_options& options,
                   const char* function) {
     if constexpr (can_turn<Policy, IndexA, IndexB>()) {
-        return result<Answer, space_of<Policy>>(meetings_of<Answer>(on, list, options, function, true));
+        const auto name = [&](std::size_t i) { return std::string(function) + ": entry " + std::to_string(i) + " of the list"; };
+        return result<Answer, space_of<Policy>>(meetings_of<Answer>(on, list, options, function, name));
     } else {
         return result<Answer, space_of<Policy>>();
     }
@@ -237,6 +239,30 @@ auto motion_of_argument(const Policy& on, const X& x) {
         return motion_of_argument(on, posed_motion<X>(x, {}, {}));
     }
 }
+
+/// One meeting of two bodies.
+template <class Policy, class X, class Y>
+std::optional<meeting> first_meeting_of(const Policy& on, const X& a, const Y& b, const meeting_options& options) {
+    auto of_a = motion_of_argument(on, a);
+    auto of_b = motion_of_argument(on, b);
+    using index_a = std::remove_cvref_t<decltype(of_a.object)>;
+    using index_b = std::remove_cvref_t<decltype(of_b.object)>;
+    if constexpr (can_turn<Policy, index_a, index_b>()) {
+        const std::vector<moving_pair<index_a, index_b>> list{{std::move(of_a), std::move(of_b)}};
+        const std::string function = "abut::first_meeting";
+        const auto answer = meetings_of<meeting>(on, list, options, function, [&](std::size_t) { return function; });
+        meeting found{};
+        download(on, answer.data(), 1, &found);
+        if (found.a != no_id) return found;
+    }
+    return std::nullopt;
+}
+
+/// A scene of bodies, in motion or not.
+template <class X>
+inline constexpr bool is_scene = requires {
+    typename X::index_type;
+};
 
 }  // namespace detail
 
@@ -301,19 +327,29 @@ template <execution_policy Policy, class IndexA, class IndexB>
 template <execution_policy Policy, class X, class Y>
 [[nodiscard]] std::optional<meeting> first_meeting(const Policy& on, const X& a, const Y& b,
                                                    const meeting_options& options) {
-    auto of_a = detail::motion_of_argument(on, a);
-    auto of_b = detail::motion_of_argument(on, b);
-    using index_a = std::remove_cvref_t<decltype(of_a.object)>;
-    using index_b = std::remove_cvref_t<decltype(of_b.object)>;
-    if constexpr (detail::can_turn<Policy, index_a, index_b>()) {
-        const std::vector<moving_pair<index_a, index_b>> list{{std::move(of_a), std::move(of_b)}};
-        const auto answer = detail::meetings_of<meeting>(on, list, options, "abut::first_meeting", false);
-        meeting found{};
-        download(on, answer.data(), 1, &found);
-        if (found.a != no_id) return found;
+    constexpr bool are_single = !detail::is_scene<X> && !detail::is_scene<Y>;
+    static_assert(are_single, "abut: first_meeting is asked of two bodies; of a scene of bodies ask first_meetings(on, moving(scene, "
+                              "refit(on, scene, poses)), options)");
+    if constexpr (!are_single) {
+        return std::nullopt;
+    } else {
+        return detail::first_meeting_of(on, a, b, options);
     }
-    return std::nullopt;
 }
+
+/// Several devices, ranks and streams take no motions: that is refused in one sentence.
+///@{
+template <executor On, class X>
+    requires(!execution_policy<On>)
+void first_meetings(const On&, const X&, const meeting_options&) {
+    static_assert(execution_policy<On>, "abut: motions are asked of one policy: several devices, ranks and async take none");
+}
+template <executor On, class X, class Y>
+    requires(!execution_policy<On>)
+void first_meetings(const On&, const X&, const Y&, const meeting_options&) {
+    static_assert(execution_policy<On>, "abut: motions are asked of one policy: several devices, ranks and async take none");
+}
+///@}
 
 ///@}
 

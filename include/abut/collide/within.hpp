@@ -62,7 +62,8 @@ consteval bool can_come_within() {
     static_assert(
         is,
         "abut: `within` takes sets of points, segments, triangles, spheres, capsules, boxes, hulls, cylinders and cones, and "
-        "planes with any of these; rays go with what they may meet");
+        "planes with any of these; rays go with what they may meet; a shape of your own needs decide_within<A>(s, t, distance) and "
+        "resolve_within(s, t, distance) beside it (docs/extending.md)");
     return is;
 }
 

@@ -86,7 +86,7 @@ ABUT_HD constexpr auto contact_in_any_order(const S& s, const U& t) {
         }
         return contact_between(s, t);
     } else {
-        static_assert(contact_pair<U, S>, "abut: there are no contacts of this pair of shapes");
+        static_assert(contact_pair<U, S>, "abut: there are no contacts of this pair of shapes; a shape of your own needs contact_between(s, t) beside it (docs/extending.md)");
         return reversed(contact_in_any_order(t, s));
     }
 }

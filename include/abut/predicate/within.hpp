@@ -118,7 +118,8 @@ template <arithmetic A = filtered, shape S, shape U>
     if constexpr (!distance_decidable<S, U>) {
         static_assert(distance_decidable<S, U>,
                       "abut::within does not support this pair of shapes (both of one scalar type; rays go with what they "
-                      "may meet, and planes not with planes)");
+                      "may meet, and planes not with planes; a shape of your own needs decide_within<A>(s, t, distance) and "
+                      "resolve_within(s, t, distance) beside it: docs/extending.md)");
         return false;
     } else if constexpr (!detail::within_as_given<S, U>) {
         return within<A>(t, s, distance);

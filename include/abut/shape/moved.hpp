@@ -44,7 +44,7 @@ inline constexpr bool is_moved<moved_object<Object>> = true;
 
 /// `object`, all shapes of which go along `way` from t = 0 to 1, as an argument of `any`, `count`, `pairs`, `for_each_pair` and
 /// `first_impact`, and as shapes of `sweep`. It is a set, a view of one, a bvh or a grid, posed or not, of points, segments,
-/// triangles, spheres, capsules, boxes, oriented boxes or hulls. Nothing is copied but what a copy of the object copies.
+/// triangles, spheres, capsules, cylinders, cones, boxes, oriented boxes, hulls, planes or half spaces. Nothing is copied but what a copy of the object copies.
 ///
 /// Nothing is thrown here. Queries throw invalid_geometry where the way is not finite.
 ///

@@ -85,7 +85,7 @@ template <class Object>
     requires(!is_posed<Object>)
 [[nodiscard]] posed_object<Object> posed(Object object, const rigid<scalar_type_of<Object>>& pose) {
     static_assert(placeable<typename detail::shape_of_object<Object>::type>,
-                  "abut: such shapes cannot be posed, for want of place(pose, shape)");
+                  "abut: such shapes cannot be posed, for want of place(pose, shape): write it beside the shape (docs/extending.md)");
     return {std::move(object), pose};
 }
 

@@ -83,7 +83,9 @@ template <class Frame, shape S>
 ABUT_HD auto sweep_seen(const Frame& frame, const swept<S>& s) {
     using T = scalar_type_of<S>;
     const aabb<T> box = bounds(s.start);
-    const vec3<T> middle = T(0.5) * box.lower + T(0.5) * box.upper;
+    // A plane has no middle. From anywhere it is seen everywhere.
+    const bool has_end = box.lower.x > -infinity<T> && box.upper.x < infinity<T>;
+    const vec3<T> middle = has_end ? T(0.5) * box.lower + T(0.5) * box.upper : vec3<T>{0, 0, 0};
     const vec3<double> lower = widened(middle) - widened(box.lower), upper = widened(box.upper) - widened(middle);
     const double reach = greatest(greatest(lower.x, lower.y, lower.z), greatest(upper.x, upper.y, upper.z));
     constexpr double u = static_cast<double>(unit_roundoff<T>), tiny = 16 * static_cast<double>(smallest_normal<T>);
