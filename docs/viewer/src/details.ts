@@ -125,7 +125,7 @@ export class DetailsWriter {
         make(
           "td",
           { id: "impact-time" },
-          timeText(result, row) + (result.step > 0 ? ` of the step from frame ${result.step}` : ""),
+          timeText(result, row) + (scene.duration > 1 ? ` of step ${result.step}` : ""),
         ),
       ),
       make("tr", {}, make("th", { scope: "row" }, "kind"), make("td", {}, kindsOfImpact[result.kinds[row]!]!)),

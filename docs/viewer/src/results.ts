@@ -37,7 +37,9 @@ export function timeText(result: Result, row: number): string {
 }
 
 export function titleOf(scene: Scene, result: Result): string {
-  const [a, b] = [scene.sets[result.a]!.name, scene.sets[result.b]!.name];
+  // Of a long name both ends: a list of choices has one line for each.
+  const short = (name: string) => (name.length > 16 ? `${name.slice(0, 8)}…${name.slice(-7)}` : name);
+  const [a, b] = [short(scene.sets[result.a]!.name), short(scene.sets[result.b]!.name)];
   const what = { pairs: "Pairs", contacts: "Contacts", impacts: "Impacts" }[result.kind];
   return `${what}: ${a}${result.a === result.b ? " with itself" : ` and ${b}`} (${result.count.toLocaleString("en")})`;
 }

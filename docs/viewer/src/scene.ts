@@ -7,6 +7,9 @@ import { Accessor, entry, FileError, Glb, isObject, Json, list, refuse, shown, w
 
 export const shapes = ["triangles", "spheres", "segments", "points", "boxes"] as const;
 export type Shape = (typeof shapes)[number];
+/** What a set is in a scene, if it is no body: what was found, drawn. */
+export const roles = ["curves", "patches", "move", "ways"] as const;
+export type Role = (typeof roles)[number];
 export const kindsOfResult = ["pairs", "contacts", "impacts"] as const;
 export type KindOfResult = (typeof kindsOfResult)[number];
 export const kindsOfImpact = ["vertex and face", "face and vertex", "edge and edge"] as const;
@@ -23,7 +26,10 @@ export interface ShapeSet {
   radii: Float32Array | undefined;
   ids: Uint32Array; // one an element
   corners: Uint32Array | undefined; // a mesh's vertex numbers, one a drawn vertex
-  hit: Uint8Array; // one an element
+  role: Role | "";
+  move: number[] | undefined; // of an arrow: how far and where it points
+  hit: Uint8Array; // one an element: whether it is hit in some step
+  hitSteps: Map<number, Uint8Array>; // in which step of a motion; empty where what is hit is so at all times
   hits: number;
   hitIsGiven: boolean;
   elementOf(id: number): number; // -1 if there is none
@@ -132,7 +138,12 @@ class Reader {
     const elementOf = inverse(drawn.ids);
     const vertexAt = inverse(drawn.corners ?? none.u32);
     const of = whole(value.of, `${where}: of`, count);
-    return { name, shape, count, of, hit, hits: 0, hitIsGiven: value.hit !== undefined, elementOf, vertexAt, ...drawn };
+    if (value.role !== undefined && !roles.includes(value.role as Role))
+      refuse(`${where}: role: expected one of ${roles.join(", ")}, got ${shown(value.role)}`);
+    const role = (value.role as Role | undefined) ?? "";
+    const move = value.move === undefined ? undefined : vector(value.move, [0, 0, 0], `${where}: move`);
+    const hitIsGiven = value.hit !== undefined;
+    return { name, shape, count, of, role, move, hit, hitSteps: new Map(), hits: 0, hitIsGiven, elementOf, vertexAt, ...drawn };
   }
 
   private nothing(): Drawn {
@@ -359,7 +370,7 @@ export function least(values: Float32Array): number {
 }
 
 /** A face is hit where a vertex, an edge or all of it is in an impact. */
-function markImpacts(set: ShapeSet, side: number, result: Result): void {
+function markImpacts(set: ShapeSet, side: number, result: Result, hit: Uint8Array): void {
   const met: Set<string | number>[] = [new Set(), new Set(), new Set()];
   const corners = set.corners;
   if (corners === undefined) return;
@@ -381,21 +392,45 @@ function markImpacts(set: ShapeSet, side: number, result: Result): void {
     const [p, q, r] = [corners[e * set.span]!, corners[e * set.span + 1]!, corners[e * set.span + 2]!];
     if (!touched.has(p) && !touched.has(q) && !touched.has(r)) continue;
     const features = [[p], [q], [r], [p, q], [q, r], [r, p], [p, q, r]];
-    if (features.some((feature) => met[feature.length - 1]!.has(key(feature)))) set.hit[e] = 1;
+    if (features.some((feature) => met[feature.length - 1]!.has(key(feature)))) hit[e] = 1;
   }
 }
 
-/** What a result touches is hit, whether the set says so or not. */
+const otherSteps = -1;
+
+/** What is hit in a step of a motion: all that is, where no step is known. */
+export function hitsAt(set: ShapeSet, step: number): Uint8Array {
+  return set.hitSteps.get(step) ?? set.hitSteps.get(otherSteps) ?? set.hit;
+}
+
+/** What a result touches is hit, whether the set says so or not; what an impact touches, in its step alone. */
 function markHits(sets: ShapeSet[], results: Result[]): void {
+  const given = sets.map((set) => set.hit);
+  for (const set of sets) set.hit = new Uint8Array(set.count);
   for (const result of results) {
     const a = sets[result.a]!;
     const b = sets[result.b]!;
     for (const id of result.aIds) a.hit[a.elementOf(id)] = 1;
     for (const id of result.bIds) b.hit[b.elementOf(id)] = 1;
-    if (result.kind !== "impacts") continue;
-    for (const side of new Set([result.a, result.b])) if (!sets[side]!.hitIsGiven) markImpacts(sets[side]!, side, result);
   }
-  for (const set of sets) set.hits = set.hit.reduce((sum, h) => sum + h, 0);
+  sets.forEach((set, side) => {
+    const impacts = results.filter((r) => r.kind === "impacts" && r.count > 0 && (r.a === side || r.b === side));
+    const steps = new Set(impacts.map((r) => r.step));
+    const together = (one: Uint8Array, other: Uint8Array) => one.map((h, e) => h | other[e]!);
+    // What the file says is hit is so in the step of the impacts. Of several steps it does not tell them apart.
+    if (steps.size === 0 || (set.hitIsGiven && steps.size > 1)) {
+      set.hit = together(set.hit, given[side]!);
+    } else {
+      set.hitSteps.set(otherSteps, set.hit);
+      for (const step of steps) {
+        const hit = together(set.hit, given[side]!);
+        if (!set.hitIsGiven) for (const r of impacts) if (r.step === step) markImpacts(set, side, r, hit);
+        set.hitSteps.set(step, hit);
+      }
+      for (const hit of set.hitSteps.values()) set.hit = together(set.hit, hit);
+    }
+    set.hits = set.hit.reduce((sum, h) => sum + h, 0);
+  });
 }
 
 export function readScene(bytes: Uint8Array, title: string): Scene {

@@ -23,9 +23,9 @@ import {
   timeText,
   titleOf,
 } from "./results";
-import { featuresOf, Scene } from "./scene";
+import { featuresOf, Result, Scene } from "./scene";
 import { Mark } from "./marks";
-import { Palette, Picked, Stage } from "./stage";
+import { Bodies, Palette, Picked, Stage } from "./stage";
 import { View } from "./view";
 import { VirtualList } from "./virtual_list";
 
@@ -53,7 +53,8 @@ export class SceneMode {
     byId("play").addEventListener("click", () => this.play());
     byId("first-impact").addEventListener("click", () => this.headline());
     byId("fit").addEventListener("click", () => this.fit());
-    byId("hits-only").addEventListener("change", () => this.stage && (this.stage.hitsOnly = this.checked("hits-only")));
+    byId("hits-only").addEventListener("change", () => this.setBodies());
+    byId("solid").addEventListener("change", () => this.setBodies());
     byId("z-up").addEventListener("change", () => this.turnUp());
     byId("explode").addEventListener("input", () => this.setExplode());
     byId("arrows").addEventListener("input", () => this.setArrows());
@@ -73,6 +74,8 @@ export class SceneMode {
     byId("first-impact").hidden = this.first === undefined;
     byId("arrow-tools").hidden = !scene.results.some((r) => r.kind === "contacts" && r.count > 0);
     byId<HTMLInputElement>("hits-only").checked = false;
+    byId<HTMLInputElement>("solid").checked = scene.sets.every((set) => set.hits === 0);
+    this.setBodies();
     byId<HTMLInputElement>("z-up").checked = fallsAlongZ(scene);
     this.stage.zUp = this.checked("z-up");
     byId<HTMLInputElement>("explode").value = "0";
@@ -87,6 +90,7 @@ export class SceneMode {
     byId("rows").hidden = scene.results.length === 0;
     if (scene.results.length > 0) this.showResult(this.headlineResult());
     this.fit(true);
+    this.firstSight();
   }
 
   show(): void {
@@ -104,6 +108,7 @@ export class SceneMode {
       deepest: cssColour("deepest"),
       a: cssColour("a"),
       b: cssColour("b"),
+      roles: { curves: cssColour("curve"), patches: cssColour("patch"), move: cssColour("move"), ways: cssColour("move") },
       sets: [0, 1, 2, 3].map((i) => cssColour(`set-${i}`)),
     };
     this.stage?.paint(palette);
@@ -128,12 +133,28 @@ export class SceneMode {
     return this.deepest?.result ?? this.first?.result ?? Math.max(0, first);
   }
 
-  /** Goes to what matters most: the deepest contact, or the first impact, or the first pair. */
+  /** What matters most: the deepest contact, or the first impact, or the first pair. */
+  private headlinePlace(): Place | undefined {
+    const pairs = this.scene!.results.findIndex((r) => r.count > 0);
+    return this.deepest ?? this.first ?? (pairs >= 0 ? { result: pairs, row: 0 } : undefined);
+  }
+
+  /** Goes there. */
   headline(): void {
-    if (this.scene === undefined) return;
-    const pairs = this.scene.results.findIndex((r) => r.count > 0);
-    const place = this.deepest ?? this.first ?? (pairs >= 0 ? { result: pairs, row: 0 } : undefined);
+    const place = this.scene && this.headlinePlace();
     if (place !== undefined) this.select({ kind: "row", ...place }, true);
+  }
+
+  /** A scene opens with what matters most selected, in view on the side that looks at the eye, and all the rest around it. */
+  private firstSight(): void {
+    const place = this.headlinePlace();
+    if (place === undefined) return;
+    this.select({ kind: "row", ...place }, false);
+    const marks = this.marks();
+    const at = this.placeOfSelection(marks);
+    const away = 0.8 * this.wholeAway;
+    const target = at.multiplyScalar(0.5).add(this.lowered(away));
+    this.view.place(target.clone().addScaledVector(this.wayTo(marks, firstWay), away), target);
   }
 
   private writeSummary(): void {
@@ -144,7 +165,8 @@ export class SceneMode {
         "button",
         { class: "headline", type: "button", onclick: () => this.select({ kind: "row", ...place }, true) },
         make("b", {}, `${what}: `, make("i", { class: "value" }, value)),
-        make("span", {}, `${more}. Show it`),
+        make("span", {}, more),
+        make("span", { class: "go" }, "Go there →"),
       );
     const deep = this.deepest;
     if (deep !== undefined) {
@@ -162,7 +184,7 @@ export class SceneMode {
         button(
           "First impact",
           `t = ${timeText(r, first.row)}`,
-          more + (r.step > 0 ? `, in the step from frame ${r.step}` : ""),
+          more + (scene.duration > 1 ? `, in step ${r.step} of ${scene.duration}` : ""),
           first,
         ),
       );
@@ -254,7 +276,7 @@ export class SceneMode {
     if (selection?.kind === "row") {
       if (selection.result !== this.shown) this.showResult(selection.result);
       const result = this.scene.results[selection.result]!;
-      if (result.kind === "impacts") this.setTime(timeOf(result, selection.row));
+      if (result.kind === "impacts") this.setTime(timeOf(result, selection.row), result.step, result.times[selection.row]!);
     }
     this.stage.mark(this.marks());
     this.arrowsOfSelection();
@@ -302,15 +324,42 @@ export class SceneMode {
   }
 
   private flyThere(): void {
-    const s = this.selection!;
     const marks = this.marks();
-    const ball = this.stage!.ballOf(s.kind === "row" ? marks : marks.slice(0, 1));
-    const isContact = s.kind === "row" && this.scene!.results[s.result]!.kind === "contacts";
-    const at =
-      isContact && byId<HTMLInputElement>("explode").value === "0"
-        ? this.stage!.pointOfContact(s.result, s.row)
-        : ball.center;
-    this.view.fly(at, Math.min(3.2, Math.max(6 * ball.radius, 0.004)));
+    const ball = this.stage!.ballOf(this.selection!.kind === "row" ? marks : marks.slice(0, 1));
+    const way = this.wayTo(marks, this.view.camera.position.clone().sub(this.view.controls.target));
+    this.view.fly(this.placeOfSelection(marks), Math.min(3.2, Math.max(6 * ball.radius, 0.004)), way);
+  }
+
+  private placeOfSelection(marks: Mark[]): THREE.Vector3 {
+    const s = this.selection!;
+    if (s.kind === "row" && this.contactOf(s) !== undefined && byId<HTMLInputElement>("explode").value === "0")
+      return this.stage!.pointOfContact(s.result, s.row);
+    return this.stage!.ballOf(s.kind === "row" ? marks : marks.slice(0, 1)).center;
+  }
+
+  private contactOf(s: Selection): Result | undefined {
+    const result = s.kind === "row" ? this.scene!.results[s.result]! : undefined;
+    return result?.kind === "contacts" ? result : undefined;
+  }
+
+  /**
+   * The direction from which to look at marks: that of `now`, turned only as far as the first face, and the others that can be, are
+   * seen from their front. Not straight on: an arrow along the normal would be a point.
+   */
+  private wayTo(marks: Mark[], now: THREE.Vector3): THREE.Vector3 {
+    const way = now.clone().normalize();
+    const isRow = this.selection!.kind === "row";
+    const fronts = (isRow ? marks : marks.slice(0, 1)).flatMap((mark) => this.stage!.frontOf(mark) ?? []);
+    const first = fronts[0];
+    if (first === undefined) return way;
+    const all = fronts.reduce((sum, n) => sum.add(n), new THREE.Vector3()).normalize();
+    const together = fronts.every((n) => n.dot(all) > 0.75);
+    const seen = (together ? fronts : [first]).map((n) => way.dot(n));
+    if (Math.min(...seen) > 0.4 && Math.max(...seen) < 0.95) return way;
+    const front = together ? all : first;
+    const aside = way.addScaledVector(front, -way.dot(front));
+    if (aside.lengthSq() < 1e-6) aside.set(front.y, front.z, front.x).addScaledVector(front, -front.dot(aside));
+    return aside.normalize().multiplyScalar(0.45).addScaledVector(front, 0.9).normalize();
   }
 
   refreshLabels(): void {
@@ -362,12 +411,27 @@ export class SceneMode {
 
   fit(atOnce = false): void {
     if (this.stage === undefined) return;
-    const away = 3.1 / Math.min(1, this.view.camera.aspect) ** 0.9;
-    const middle = new THREE.Vector3(0, -0.08, 0);
-    const direction = new THREE.Vector3(0.55, 0.42, 0.9).normalize();
+    const away = this.wholeAway;
+    const middle = this.lowered(away);
     if (atOnce) this.view.show(this.stage);
-    if (atOnce) this.view.place(middle.clone().addScaledVector(direction, away), middle);
-    else this.view.fly(middle, away, direction);
+    if (atOnce) this.view.place(middle.clone().addScaledVector(firstWay, away), middle);
+    else this.view.fly(middle, away, firstWay);
+  }
+
+  /** How far from the middle all can be seen. */
+  private get wholeAway(): number {
+    return 3.1 / Math.min(1, this.view.camera.aspect) ** 0.9;
+  }
+
+  /** Below the middle of the scene as far as that has to be above the picture's middle, for the controls cover its lower edge. */
+  private lowered(away: number): THREE.Vector3 {
+    const covered = byId("scene-tools").offsetHeight / Math.max(1, this.view.height);
+    return new THREE.Vector3(0, -covered * away * Math.tan(THREE.MathUtils.degToRad(this.view.camera.fov / 2)), 0);
+  }
+
+  private setBodies(): void {
+    const how: Bodies = this.checked("hits-only") ? "faint" : this.checked("solid") ? "solid" : "ghost";
+    if (this.stage !== undefined) this.stage.bodies = how;
   }
 
   private turnUp(): void {
@@ -388,12 +452,16 @@ export class SceneMode {
     if (this.stage !== undefined) this.stage.arrowLength = 0.6 * Number(byId<HTMLInputElement>("arrows").value) ** 2;
   }
 
-  setTime(value: number): void {
+  /** A moment at which one step ends and the next begins is of the next, unless it is said to be of the other. */
+  setTime(value: number, step = Math.min(Math.floor(value), Math.max(0, this.scene!.duration - 1)), exact?: number): void {
     if (this.stage === undefined) return;
     this.stage.time = value;
+    this.stage.step = step;
     this.time.value = String(value);
     const { duration } = this.scene!;
-    byId("time-value").textContent = duration > 1 ? `${value.toFixed(3)} of ${duration}` : `t = ${value.toFixed(4)}`;
+    byId("time-value").textContent =
+      (duration > 1 ? `step ${step} of ${duration}, ` : "") +
+      `t = ${exact === undefined ? (value - step).toFixed(3) : Number(exact.toPrecision(3))}`;
     this.refreshLabels();
     if (this.selection?.kind === "element" && this.playing === 0) this.writeDetails(); // its corners have moved
   }
@@ -453,6 +521,9 @@ export class SceneMode {
     pen.fill();
   }
 }
+
+/** From which scenes are looked at first. */
+const firstWay = new THREE.Vector3(0.55, 0.42, 0.9).normalize();
 
 /** Whether what moves goes along z more than along x and y, as things fall where z is up. */
 function fallsAlongZ(scene: Scene): boolean {
