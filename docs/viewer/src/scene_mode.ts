@@ -3,7 +3,7 @@
 // A scene on the page: summary, what is selected, the list, and the controls under the picture.
 
 import * as THREE from "three";
-import { byId, counted, cssColour, make, shortest } from "./dom";
+import { brief, byId, counted, cssColour, make, shortest } from "./dom";
 import { DetailsWriter, Selection } from "./details";
 import { Label, Labels } from "./labels";
 import {
@@ -14,7 +14,9 @@ import {
   elementName,
   featureName,
   firstImpact,
+  firstTouch,
   marksOf,
+  measureOf,
   noun,
   partnersOf,
   Place,
@@ -23,7 +25,7 @@ import {
   timeText,
   titleOf,
 } from "./results";
-import { featuresOf, Result, Scene } from "./scene";
+import { featuresOf, greatest, hasPlaces, Result, Role, Scene } from "./scene";
 import { Mark } from "./marks";
 import { Bodies, Palette, Picked, Stage } from "./stage";
 import { View } from "./view";
@@ -72,7 +74,7 @@ export class SceneMode {
     byId("time-tools").hidden = scene.duration === 0;
     this.time.max = String(scene.duration || 1);
     byId("first-impact").hidden = this.first === undefined;
-    byId("arrow-tools").hidden = !scene.results.some((r) => r.kind === "contacts" && r.count > 0);
+    byId("arrow-tools").hidden = !scene.results.some((r) => hasPlaces(r) && r.count > 0);
     byId<HTMLInputElement>("hits-only").checked = false;
     byId<HTMLInputElement>("solid").checked = scene.sets.every((set) => set.hits === 0);
     this.setBodies();
@@ -84,11 +86,12 @@ export class SceneMode {
     this.setArrows();
     this.writeSummary();
     this.writeDetails();
+    const isList = (result: Result) => result.kind !== "safe_step";
     this.which.replaceChildren(
-      ...scene.results.map((result, i) => make("option", { value: String(i) }, titleOf(scene, result))),
+      ...scene.results.flatMap((r, i) => (isList(r) ? [make("option", { value: String(i) }, titleOf(scene, r))] : [])),
     );
-    byId("rows").hidden = scene.results.length === 0;
-    if (scene.results.length > 0) this.showResult(this.headlineResult());
+    byId("rows").hidden = !scene.results.some(isList);
+    if (scene.results.some(isList)) this.showResult(this.headlineResult());
     this.fit(true);
     this.firstSight();
   }
@@ -129,14 +132,13 @@ export class SceneMode {
   }
 
   private headlineResult(): number {
-    const first = this.scene!.results.findIndex((r) => r.count > 0);
-    return this.deepest?.result ?? this.first?.result ?? Math.max(0, first);
+    return this.headlinePlace()?.result ?? this.scene!.results.findIndex((r) => r.kind !== "safe_step");
   }
 
-  /** What matters most: the deepest contact, or the first impact, or the first pair. */
+  /** What matters most: the deepest contact, or the first impact, or what sweeps and touches first, or the first pair. */
   private headlinePlace(): Place | undefined {
     const pairs = this.scene!.results.findIndex((r) => r.count > 0);
-    return this.deepest ?? this.first ?? (pairs >= 0 ? { result: pairs, row: 0 } : undefined);
+    return this.deepest ?? this.first ?? firstTouch(this.scene!) ?? (pairs >= 0 ? { result: pairs, row: 0 } : undefined);
   }
 
   /** Goes there. */
@@ -160,14 +162,16 @@ export class SceneMode {
   private writeSummary(): void {
     const scene = this.scene!;
     const parts: HTMLElement[] = [];
-    const button = (what: string, value: string, more: string, place: Place) =>
+    const card = (what: string, value: string, more: string, action: string, act: () => void) =>
       make(
         "button",
-        { class: "headline", type: "button", onclick: () => this.select({ kind: "row", ...place }, true) },
+        { class: "headline", type: "button", onclick: act },
         make("b", {}, `${what}: `, make("i", { class: "value" }, value)),
         make("span", {}, more),
-        make("span", { class: "go" }, "Go there →"),
+        make("span", { class: "go" }, action),
       );
+    const button = (what: string, value: string, more: string, place: Place) =>
+      card(what, value, more, "Go there →", () => this.select({ kind: "row", ...place }, true));
     const deep = this.deepest;
     if (deep !== undefined) {
       const r = scene.results[deep.result]!;
@@ -189,6 +193,12 @@ export class SceneMode {
         ),
       );
     }
+    const touch = firstTouch(scene);
+    if (touch !== undefined) {
+      const r = scene.results[touch.result]!;
+      const more = `${elementName(scene, r.a, r.aIds[touch.row]!)} touches ${elementName(scene, r.b, r.bIds[touch.row]!)}`;
+      parts.push(button("First touch", measureOf(r, touch.row), more, touch));
+    }
     const pairs = scene.results.findIndex((r) => r.kind === "pairs" && r.count > 0);
     if (parts.length === 0 && pairs >= 0) {
       const r = scene.results[pairs]!;
@@ -200,7 +210,29 @@ export class SceneMode {
         }),
       );
     }
-    if (parts.length === 0) parts.push(make("p", { class: "answer no" }, "Nothing touches."));
+    scene.sets.forEach((set, i) => {
+      const depths = set.role === "patches" ? set.numbers.find(([name]) => name === "depth")?.[1] : undefined;
+      if (depths === undefined) return;
+      const deepest = greatest(depths);
+      const more = [`deepest of ${counted(set.count, "patch")}`, ...set.numbers.map(([name, of]) => `${name} ${brief(of[deepest]!)}`)];
+      parts.push(
+        card(set.name, `${shortest(depths[deepest]!)} deep`, more.join(", "), "Go there →", () =>
+          this.select({ kind: "element", set: i, element: deepest }, true),
+        ),
+      );
+    });
+    if (parts.length === 0 && scene.sets.every((set) => set.hits === 0))
+      parts.push(make("p", { class: "answer no" }, "Nothing touches."));
+    for (const { kind, part, step } of scene.results) {
+      if (kind !== "safe_step") continue;
+      const more = scene.duration > 1 ? `of step ${step} of ${scene.duration} is free` : "of the way is free";
+      parts.push(card("Safe step", String(part), more, "Show it →", () => this.setTime(step + part, step, part)));
+    }
+    for (const { name, move } of scene.sets) {
+      if (move === undefined || scene.duration === 0) continue;
+      const more = `a move by ${move.map(brief).join(", ")}`;
+      parts.push(card(name, `${brief(Math.hypot(...move))} long`, more, "Play it ▶", () => this.play(0)));
+    }
     const table = make("table", { class: "sets" });
     scene.sets.forEach((set, i) => {
       const toggle = make("input", {
@@ -209,7 +241,7 @@ export class SceneMode {
         "aria-label": `Show ${set.name}`,
         onchange: (event) => this.stage!.showSet(i, (event.target as HTMLInputElement).checked),
       });
-      const swatch = make("span", { class: "swatch", style: `background: var(--set-${i % 4})` });
+      const swatch = make("span", { class: "swatch", style: `background: var(--${swatchOf(set.role, i)})` });
       const hits = set.hits > 0 ? `${set.hits.toLocaleString("en")} hit` : "no hit";
       table.append(
         make(
@@ -237,7 +269,7 @@ export class SceneMode {
     this.search.value = "";
     this.filter();
     const result = this.scene!.results[number]!;
-    if (result.kind !== "pairs") this.list.sort(1, result.kind === "contacts");
+    if (result.kind === "impacts" || hasPlaces(result)) this.list.sort(1, result.kind === "contacts");
     this.arrowsOfSelection();
   }
 
@@ -277,6 +309,7 @@ export class SceneMode {
       if (selection.result !== this.shown) this.showResult(selection.result);
       const result = this.scene.results[selection.result]!;
       if (result.kind === "impacts") this.setTime(timeOf(result, selection.row), result.step, result.times[selection.row]!);
+      if (result.kind === "sweeps") this.setTime(this.scene.duration); // each has stopped where it touches
     }
     this.stage.mark(this.marks());
     this.arrowsOfSelection();
@@ -304,7 +337,7 @@ export class SceneMode {
     if (s.kind === "row") {
       const result = scene.results[s.result]!;
       const marks = marksOf(scene, result, s.row);
-      if (result.kind === "contacts") marks[0]!.contact = { result: s.result, row: s.row };
+      if (hasPlaces(result)) marks[0]!.contact = { result: s.result, row: s.row };
       return marks;
     }
     const marks: Mark[] = [{ set: s.set, side: "a", elements: [s.element] }];
@@ -339,7 +372,7 @@ export class SceneMode {
 
   private contactOf(s: Selection): Result | undefined {
     const result = s.kind === "row" ? this.scene!.results[s.result]! : undefined;
-    return result?.kind === "contacts" ? result : undefined;
+    return result !== undefined && hasPlaces(result) ? result : undefined;
   }
 
   /**
@@ -375,10 +408,9 @@ export class SceneMode {
           : `${noun(scene, mark.set)} ${scene.sets[mark.set]!.ids[mark.elements![0]!]}`;
       words.push({ at: this.stage.ballOf([mark]).center, text: `${mark.side} · ${name}`, look: mark.side });
     }
-    if (s.kind === "row" && scene.results[s.result]!.kind === "contacts") {
-      const depth = shortest(scene.results[s.result]!.depths[s.row]!);
-      words.push({ at: this.stage.pointOfContact(s.result, s.row), text: `${depth} deep`, look: "depth" });
-    }
+    const contact = this.contactOf(s);
+    if (s.kind === "row" && contact !== undefined)
+      words.push({ at: this.stage.pointOfContact(s.result, s.row), text: measureOf(contact, s.row), look: "depth" });
     this.labels.set(words);
   }
 
@@ -466,8 +498,16 @@ export class SceneMode {
     if (this.selection?.kind === "element" && this.playing === 0) this.writeDetails(); // its corners have moved
   }
 
-  play(): void {
-    if (this.playing !== 0) return this.stop();
+  /** Plays the motion from where it is, or from a moment; or stops it. */
+  play(from?: number): void {
+    const wasPlaying = this.playing !== 0;
+    if (wasPlaying) this.stop();
+    if (wasPlaying && from === undefined) return;
+    if (from !== undefined) this.setTime(from);
+    this.run();
+  }
+
+  private run(): void {
     const duration = this.scene?.duration ?? 0;
     if (duration === 0) return;
     if (Number(this.time.value) >= duration) this.setTime(0);
@@ -506,6 +546,10 @@ export class SceneMode {
         ++bins[Math.min(bins.length - 1, Math.floor((timeOf(result, i) / duration) * bins.length))]!;
     }
     const most = bins.reduce((x, y) => Math.max(x, y), 1);
+    pen.fillStyle = cssColour("good");
+    for (const { kind, part, step } of this.scene?.results ?? []) {
+      if (kind === "safe_step") pen.fillRect((step / duration) * width, height - 4, Math.max(2, (part / duration) * width), 4);
+    }
     pen.fillStyle = cssColour("mark");
     bins.forEach((n, x) => {
       const tall = n === 0 ? 0 : 3 + (height - 4) * Math.sqrt(n / most);
@@ -520,6 +564,11 @@ export class SceneMode {
     pen.lineTo(x, 7);
     pen.fill();
   }
+}
+
+/** The name of a set's colour. */
+function swatchOf(role: Role | "", number: number): string {
+  return { "": `set-${number % 4}`, curves: "curve", patches: "patch", move: "move", ways: "move" }[role];
 }
 
 /** From which scenes are looked at first. */

@@ -5,7 +5,7 @@
 
 import * as THREE from "three";
 import { Mark, markLimit, Marks } from "./marks";
-import { greatest, hitsAt, placeOf, Result, Role, Scene, ShapeSet, stretchOf } from "./scene";
+import { greatest, hasPlaces, hitsAt, placeOf, Result, Role, Scene, ShapeSet, stretchOf } from "./scene";
 import { placeArrow, placeSegment, placeShape, shadeArrow, shadeShape, writeCode } from "./shaders";
 import { View, World } from "./view";
 
@@ -89,7 +89,7 @@ export class Stage implements World {
       base += set.count;
     });
     scene.results.forEach((result, number) => {
-      if (result.kind !== "contacts" || result.count === 0) return;
+      if (!hasPlaces(result) || result.count === 0) return;
       this.arrows.push({ ...this.contacts(result, base), result: number });
       base += result.count;
     });
@@ -131,7 +131,7 @@ export class Stage implements World {
 
   private shapes(set: ShapeSet, base: number, number: number): Part {
     const points = this.scaled(set.positions, true);
-    const isSurface = set.shape === "triangles" || set.shape === "boxes" || set.shape === "spheres";
+    const isSurface = set.shape === "triangles" || set.shape === "boxes" || set.shape === "surfaces" || set.shape === "spheres";
     const defines: { [name: string]: string | number } = { SPAN: set.span };
     if (isSurface) defines.SURFACE = 1;
     // Segments that stand still are as wide as they are looked at; others are lines of one pixel.
@@ -250,11 +250,12 @@ export class Stage implements World {
     geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array([...shaft, ...head]), 3));
     geometry.setAttribute("foot", new THREE.InstancedBufferAttribute(this.scaled(result.points, true), 3));
     geometry.setAttribute("normal_", new THREE.InstancedBufferAttribute(result.normals, 3));
-    const most = result.depths[greatest(result.depths)]! || 1;
+    const depths = result.kind === "contacts" ? result.depths : new Float32Array(result.count).fill(1);
+    const most = depths[greatest(depths)]! || 1;
     geometry.setAttribute(
       "depth",
       new THREE.InstancedBufferAttribute(
-        result.depths.map((d) => d / most),
+        depths.map((d) => d / most),
         1,
       ),
     );

@@ -12,7 +12,7 @@ import { folder, html, openPage, openScene, settle, startBrowser, text } from ".
 import { torus, writeScene } from "./glb.mjs";
 import { contactsOf, loadPredicate } from "./predicate.mjs";
 import { firstMet } from "./rays.mjs";
-import { frames, hostile, motion, small } from "./scenes.mjs";
+import { findings, frames, hostile, motion, small } from "./scenes.mjs";
 
 let browser, page, predicate, meshes, contacts, bytes;
 
@@ -435,6 +435,60 @@ test("what is hit in a step of a motion is marked in that step alone", async () 
     return [select.clientWidth - 36, ...[...select.options].map((o) => pen.measureText(o.text).width)];
   });
   assert.ok(Math.max(...widths.slice(1)) < widths[0], `the choice of a list is not cut off: ${widths}`);
+});
+
+test("curves, patches, a move, what sweeps and a safe step", async () => {
+  await openScene(page, writeScene(findings()), "findings.glb");
+  const time = () => viewer("v.scenes.stage.time");
+  assert.equal(await time(), 1, "what sweeps has stopped where it touches");
+  assert.match(await text(page, "#details"), /of its way\s+0.5\s+point\s+1\s+1\s+-1\s+normal\s+0\s+0\s+1/);
+  assert.match(await text(page, "#labels"), /after 0.5 of its way/);
+  const cards = await page.locator(".headline").allInnerTexts();
+  assert.deepEqual(
+    cards.map((card) => card.split("\n").filter((line) => line !== "")),
+    [
+      ["First touch: after 0.5 of its way", "shape 0 of movers touches face 1 of floor", "Go there →"],
+      ["patches: 0.125 deep", "deepest of 2 patches, area 4, depth 0.125", "Go there →"],
+      ["Safe step: 0.375", "of the way is free", "Show it →"],
+      ["way out: 3 long", "a move by 0, 0, 3", "Play it ▶"],
+    ],
+  );
+  assert.deepEqual(await page.locator("#which-result option").allInnerTexts(), ["Touches: movers and floor (1)"]);
+  assert.match(await text(page, "#list"), /of its way[^]*0\s+0.5\s+0\s+1/);
+
+  await page.getByRole("button", { name: /^Safe step/ }).click();
+  assert.equal(await time(), 0.375);
+  const green = await page.evaluate(() => {
+    const canvas = document.getElementById("time-marks");
+    const copy = Object.assign(document.createElement("canvas"), { width: canvas.width, height: canvas.height }).getContext("2d");
+    copy.drawImage(canvas, 0, 0); // of the page's own it is read a second time, of which the browser complains
+    const { data } = copy.getImageData(0, canvas.height - 2, canvas.width, 1);
+    return [0.01, 0.36, 0.39, 0.9].map((part) => data[4 * Math.floor(part * canvas.width) + 3] > 0);
+  });
+  assert.deepEqual(green, [true, true, false, false], "the free part is marked on the clock");
+
+  await page.getByRole("button", { name: /^patches/ }).click();
+  assert.deepEqual(await viewer("v.scenes.selection"), { kind: "element", set: 3, element: 0 });
+  assert.match(await text(page, "#details"), /patch 0 of patches[^]*area\s+4\s+depth\s+0.125/);
+
+  // A curve is wider than a line, in its colour, and can be picked beside its middle.
+  await page.keyboard.press("Escape");
+  await page.keyboard.press("f");
+  await settle(page);
+  for (const name of ["lid", "patches", "movers", "way out", "movers: ways", "floor"]) await page.getByLabel(`Show ${name}`, { exact: true }).click();
+  const ends = await viewer("[0, 1].map((e) => v.view.toScreen(v.scenes.stage.vertex(2, 2 * 1 + e).applyMatrix4(v.scenes.stage.content.matrixWorld)))");
+  const middle = { x: (ends[0].x + ends[1].x) / 2, y: (ends[0].y + ends[1].y) / 2 };
+  const length = Math.hypot(ends[1].x - ends[0].x, ends[1].y - ends[0].y);
+  const aside = [(ends[0].y - ends[1].y) / length, (ends[1].x - ends[0].x) / length];
+  const beside = (by) => ({ x: middle.x + by * aside[0], y: middle.y + by * aside[1] });
+  const ground = await pixel({ x: 3, y: 3 });
+  const isDrawn = async (by) => apart(await pixel(beside(by)), ground) > 60;
+  assert.deepEqual([await isDrawn(-1), await isDrawn(1), await isDrawn(4), await isDrawn(-4)], [true, true, false, false]);
+  assert.deepEqual(await viewer("v.scenes.stage.pick(argument.x, argument.y)", middle), { set: 2, element: 1 });
+
+  await page.getByRole("button", { name: /^way out/ }).click();
+  await page.waitForFunction(() => window.abutViewer.scenes.stage.time > 0 && window.abutViewer.scenes.stage.time < 0.3);
+  await page.getByRole("button", { name: "Play the motion" }).click();
 });
 
 test("files come by drop, by ?scene=, and in the page", async () => {
