@@ -5,6 +5,7 @@
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
+import { execFileSync } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
@@ -532,6 +533,46 @@ test("files come by drop, by ?scene=, and in the page", async () => {
     assert.deepEqual(embedded.problems, []);
     await embedded.close();
     (await import("node:fs")).unlinkSync(name);
+  }
+});
+
+test("the gallery: one page leads to all scenes", { skip: !process.env.ABUT_GALLERY }, async () => {
+  const at = process.env.ABUT_GALLERY;
+  const tool = (name, ...words) => execFileSync(process.execPath, [new URL(`../../../docs/viewer/${name}.mjs`, import.meta.url).pathname, ...words]);
+  const says = {
+    rings: [/Pairs that touch: \d+[^]*the way out: 1.0\d* long/, "curves"],
+    patches: [/patches: 0.15 deep[^]*of 4 patches, area 0.16/, "patches"],
+    sweeps: [/First touch: after 0.4 of its way[^]*shape 1 of movers touches/, "ways"],
+    safe_step: [/Safe step: 0.4166666666/, ""],
+  };
+  const names = Object.keys(says);
+  for (const name of names) tool("embed", join(folder, "viewer.html"), join(at, `${name}.glb`), join(at, `${name}.html`));
+  tool("gallery", at, ...names, "<b>");
+  for (const [width, scheme] of [
+    [1280, "light"],
+    [400, "dark"],
+  ]) {
+    const gallery = await browser.newPage({ viewport: { width, height: 800 }, colorScheme: scheme });
+    await gallery.goto(pathToFileURL(join(at, "index.html")).href);
+    assert.deepEqual(await gallery.locator("a").evaluateAll((all) => all.map((a) => a.getAttribute("href"))), [
+      ...names.map((name) => `${name}.html`),
+      "%3Cb%3E.html",
+    ]);
+    assert.match(await gallery.locator("li").last().innerText(), /^<b>/, "a name is no markup");
+    assert.ok(await gallery.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+    await gallery.close();
+  }
+  for (let i = 0; i < names.length; ++i) {
+    const opened = await openPage(browser, { url: pathToFileURL(join(at, "index.html")).href, ready: "a" });
+    for (let k = 0; k <= i; ++k) await opened.keyboard.press("Tab");
+    await opened.keyboard.press("Enter");
+    await opened.waitForSelector("html[data-ready]");
+    const [card, role] = says[names[i]];
+    assert.match(await text(opened, "#summary"), card);
+    assert.ok(await opened.evaluate((role) => window.abutViewer.scenes.scene.sets.some((set) => set.role === role), role));
+    assert.equal(await opened.locator("#message").isVisible(), false);
+    assert.deepEqual(opened.problems, []);
+    await opened.close();
   }
 });
 
