@@ -592,7 +592,7 @@ TEST_CASE("write_gltf: how much of a step is free") {
     CHECK(result.at("step") == 2);
     CHECK(result.at("count") == 0);
     for (const auto& [part, found] : {std::pair{-0.5, "-0.5"}, std::pair{1.5, "1.5"}, std::pair{std::nan(""), "nan"}}) {
-        CHECK(refusal([&] { scene.add_safe_step(a, a, part); }) ==
+        CHECK(refusal([&, wrong = part] { scene.add_safe_step(a, a, wrong); }) ==
               "abut::io::gltf_scene::add_safe_step: expected a part from 0 to 1, found " + std::string(found));
     }
 }
