@@ -6,7 +6,7 @@
 # Installs what is missing from the distribution's packages (Debian 12, Ubuntu 24.04 or newer), builds the programs of
 # docs/examples and runs them on their embedded scenes: spheres against a mesh, one triangle against many, mesh against
 # mesh, a cloth that falls on a ball. Where nvcc 13.0 or newer and a device are present it runs them there too. At last it
-# lists the files to look at.
+# lists the files to look at; cmake/view.sh --gallery makes pages of them for a browser.
 # With arguments it builds and runs spheres_vs_mesh alone. ABUT_REQUIRE_CUDA=1 fails where nvcc is not.
 set -eu
 cd "$(dirname "$0")/.."

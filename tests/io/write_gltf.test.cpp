@@ -448,11 +448,152 @@ TEST_CASE("write_gltf: a move is an arrow from its point to its end") {
         CHECK(most == Approx(1));
     }
     abut::io::gltf_scene scene;
-    CHECK(scene.add_move("a", {0, 0, 0}, {0, 0, 1}).number == 0);
-    CHECK(glb::bytes_of(scene).find("\"count\":24") != std::string::npos);
+    CHECK(scene.add_move("a", {0, 0, 0}, {0, 0.5, 1}).number == 0);
+    const glb file(scene);
+    const json& set = file.ours().at("sets").at(0);
+    CHECK(set.at("count") == 24);
+    CHECK(set.at("role") == "move");
+    CHECK(set.at("move") == json::array({0, 0.5, 1}));
     for (const vec3<double> by : {vec3<double>{0, 0, 0}, vec3<double>{0, 1e200, 0}}) {
         CHECK(refusal([&] { scene.add_move("a", {0, 0, 0}, by); }) ==
               "abut::io::gltf_scene::add_move: expected a move of a length above 0 whose square is finite");
+    }
+}
+
+/// What `contact_patches` and `sweep` say, by their members.
+struct patch_curve {
+    struct pair {
+        std::uint32_t a, b;
+    };
+    std::vector<vec3<double>> points;
+    [[nodiscard]] std::size_t segments() const { return points.size(); }
+    [[nodiscard]] std::vector<pair> pairs_of(std::size_t) const { return {{0, 0}}; }
+};
+struct patch {
+    struct corner {
+        vec3<double> point;
+    };
+    std::vector<patch_curve> curves;
+    vec3<double> center;
+    double area, depth;
+    std::vector<corner> points;
+};
+struct sweep_hit {
+    std::uint32_t id;
+    float t;
+    vec3<float> point, normal;
+};
+
+TEST_CASE("write_gltf: patches are surfaces with numbers, and their curves") {
+    // A rectangle of 2 by 3, a pentagon without a curve, and a point.
+    const std::vector<vec3<double>> rectangle{{0, 0, 5}, {2, 0, 5}, {2, 3, 5}, {0, 3, 5}};
+    const std::vector<patch> patches{
+        {{{rectangle}}, {1, 1.5, 5}, 6, 0.25, {{rectangle[0]}, {rectangle[1]}, {rectangle[2]}, {rectangle[3]}}},
+        {{}, {0, 0, 0}, 1, 0, {{{-1, -1, 0}}, {{1, -1, 0}}, {{2, 0, 0}}, {{1, 1, 0}}, {{-1, 1, 0}}}},
+        {{}, {7, 8, 9}, 0, 0, {{{7, 8, 9}}}}};
+    abut::io::gltf_scene scene;
+    CHECK(scene.add_patches("p", patches).number == 0);
+    CHECK(scene.add_patches("none", std::vector<patch>{}).number == 2);
+    const glb file(scene);
+    const json& set = file.ours().at("sets").at(0);
+    CHECK(set.at("kind") == "surfaces");
+    CHECK(set.at("role") == "patches");
+    CHECK(set.at("count") == 3);
+    CHECK(file.numbers<float>(set.at("numbers").at("area")) == std::vector<float>{6, 1, 0});
+    CHECK(file.numbers<float>(set.at("numbers").at("depth")) == std::vector<float>{0.25f, 0, 0});
+    CHECK(file.numbers<std::uint8_t>(set.at("hit")) == std::vector<std::uint8_t>{1, 1, 1});
+    const auto positions = file.floats(set, "POSITION");
+    const auto ids = file.ids(set);
+    REQUIRE(positions.size() == std::size_t{3} * 42 * 3);
+    std::array<double, 3> areas{};
+    for (std::size_t i = 0; i < ids.size(); i += 3) {
+        const float* const p = &positions[3 * i];
+        areas[ids[i]] += 0.5 * static_cast<double>((p[3] - p[0]) * (p[7] - p[1]) - (p[4] - p[1]) * (p[6] - p[0]));
+    }
+    CHECK(areas == std::array<double, 3>{6, 5, 0});
+    CHECK(std::vector<float>(positions.end() - 3, positions.end()) == std::vector<float>{7, 8, 9});
+    const json& borders = file.ours().at("sets").at(1);
+    CHECK(borders.at("name") == "p: borders");
+    CHECK(borders.at("role") == "curves");
+    CHECK(borders.at("count") == 4);
+    CHECK(file.ours().at("sets").at(2).at("count") == 0);
+    CHECK_FALSE(file.ours().at("sets").at(2).contains("numbers"));
+}
+
+TEST_CASE("write_gltf: shapes that sweep go to where they touch") {
+    const abut::capsules<float> movers{{{{0, 0, 2}, {0, 0, 3}}, 1}, {{{5, 0, 0}, {5, 0, 0}}, 0.5f}};
+    const abut::points<float> ways{{4, 0, 0}, {0, 2, 0}};
+    const std::vector<sweep_hit> hits{{2, 0.75f, {4, 0, 2}, {-1, 0, 0}}, {0xFFFFFFFF, INFINITY, {}, {}}};
+    abut::io::gltf_scene scene;
+    const auto met = scene.add("met", corner_of_cube);
+    CHECK(scene.add_sweep("s", movers, ways, hits, met).number == 1);
+    const glb file(scene);
+    const json& set = file.ours().at("sets").at(1);
+    CHECK(set.at("moves") == true);
+    CHECK(file.numbers<std::uint8_t>(set.at("hit")) == std::vector<std::uint8_t>{1, 0});
+    const auto positions = file.floats(set, "POSITION");
+    const auto moves = file.numbers<float>(file.primitive(file.node(set)).at("targets").at(0).at("POSITION"));
+    REQUIRE(positions.size() == std::size_t{2} * 960 * 3);
+    REQUIRE(moves.size() == positions.size());
+    bool is_on_it = true, is_moved = true;
+    float top = 0;
+    for (std::size_t i = 0; i < positions.size(); i += 3) {
+        const bool first = i < positions.size() / 2;
+        const float x = positions[i] - (first ? 0.0f : 5.0f), y = positions[i + 1], z = positions[i + 2];
+        const float up = first ? z - std::clamp(z, 2.0f, 3.0f) : z;
+        is_on_it = is_on_it && std::fabs(std::sqrt(x * x + y * y + up * up) - (first ? 1.0f : 0.5f)) < 1e-5f;
+        is_moved = is_moved && std::fabs(moves[i] - (first ? 3.0f : 0.0f)) < 1e-5f &&
+                   std::fabs(moves[i + 1] - (first ? 0.0f : 2.0f)) < 1e-5f && moves[i + 2] == 0;
+        if (first) top = std::max(top, z);
+    }
+    CHECK(is_on_it);
+    CHECK(is_moved);
+    CHECK(top > 3.9f);
+    const json& lines = file.ours().at("sets").at(2);
+    CHECK(lines.at("role") == "ways");
+    CHECK(file.floats(lines, "POSITION") ==
+          std::vector<float>{0, 0, 2.5f, 3, 0, 2.5f, 3, 0, 2.5f, 4, 0, 2.5f, 5, 0, 0, 5, 2, 0, 5, 2, 0, 5, 2, 0});
+    const json& result = file.ours().at("results").at(0);
+    CHECK(result.at("kind") == "sweeps");
+    CHECK(result.at("count") == 1);
+    CHECK(result.at("a") == 1);
+    CHECK(result.at("b") == 0);
+    const auto of = [&](const char* name) { return result.at("accessors").at(name); };
+    CHECK(file.numbers<std::uint32_t>(of("a_ids")) == std::vector<std::uint32_t>{0});
+    CHECK(file.numbers<std::uint32_t>(of("b_ids")) == std::vector<std::uint32_t>{2});
+    CHECK(file.numbers<float>(of("points")) == std::vector<float>{4, 0, 2});
+    CHECK(file.numbers<float>(of("times")) == std::vector<float>{0.75f});
+    CHECK(refusal([&] { scene.add_sweep("s", movers, abut::points<float>{{1, 0, 0}}, hits, met); }) ==
+          "abut::io::gltf_scene::add_sweep: expected as many ways and hits as shapes, 2, found 1 and 2");
+    // Other shapes that can sweep: what is drawn lies in their boxes, and reaches all sides.
+    const auto reaches = [&](const auto& shape) {
+        const auto surface = abut::io::detail::convex_surface(shape, abut::io::detail::ball_mesh(2));
+        abut::aabb<double> box{surface.points[0], surface.points[0]};
+        for (const auto& p : surface.points) box = merge(box, abut::aabb<double>{p, p});
+        const auto expected = bounds(shape);
+        return box.lower == expected.lower && box.upper == expected.upper;
+    };
+    CHECK(reaches(abut::aabb<double>{{0, 1, 2}, {3, 4, 5}}));
+    CHECK(reaches(abut::triangle<double>{{0, 0, 0}, {1, 0, 0}, {0, 1, 4}}));
+    CHECK(reaches(abut::segment<double>{{0, 0, 0}, {1, 2, 3}}));
+    CHECK(reaches(vec3<double>{1, 2, 3}));
+    const std::vector<vec3<double>> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.1, 0.1, 0.1}};
+    CHECK(reaches(abut::hull<double>(corners.data(), corners.size())));
+}
+
+TEST_CASE("write_gltf: how much of a step is free") {
+    abut::io::gltf_scene scene;
+    const auto a = scene.add("a", corner_of_cube);
+    scene.add_safe_step(a, a, 0.3, {.step = 2});
+    const glb file(scene);
+    const json& result = file.ours().at("results").at(0);
+    CHECK(result.at("kind") == "safe_step");
+    CHECK(result.at("part") == 0.3);
+    CHECK(result.at("step") == 2);
+    CHECK(result.at("count") == 0);
+    for (const auto& [part, found] : {std::pair{-0.5, "-0.5"}, std::pair{1.5, "1.5"}, std::pair{std::nan(""), "nan"}}) {
+        CHECK(refusal([&, wrong = part] { scene.add_safe_step(a, a, wrong); }) ==
+              "abut::io::gltf_scene::add_safe_step: expected a part from 0 to 1, found " + std::string(found));
     }
 }
 

@@ -168,6 +168,7 @@ TEST_CASE("write_curves: the segments of an open and of a closed curve, with the
     abut::io::write_gltf(folder / "a.glb", scene);
     const std::string glb = io_test::content(folder / "a.glb");
     CHECK(glb.find("\"kind\":\"segments\"") != std::string::npos);
+    CHECK(glb.find("\"role\":\"curves\"") != std::string::npos);
     CHECK(glb.find("\"count\":" + std::to_string(segments)) != std::string::npos);
 }
 

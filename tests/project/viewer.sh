@@ -4,7 +4,7 @@
 # usage: sh viewer.sh [PROGRAM]
 #
 # Builds the page of docs/viewer and tests it: its types, its reader alone, and the page in a real browser. PROGRAM is the
-# example mesh_vs_mesh, whose scene is then read and shown too. Where node, npm or chromium is missing it is skipped, or fails if
+# example mesh_vs_mesh, whose scene is then read and shown too, as are those of docs/viewer/gallery.cpp. Where node, npm or chromium is missing it is skipped, or fails if
 # ABUT_REQUIRE names viewer. Nothing is installed but npm's packages, into build/viewer.
 set -eu
 cd "$(dirname "$0")/../.."
@@ -37,5 +37,10 @@ if [ $# -gt 0 ]; then
     export ABUT_SCENE
     "$1" --no-output --view "$ABUT_SCENE" >/dev/null
 fi
+ABUT_GALLERY=$ABUT_VIEWER/test_gallery
+export ABUT_GALLERY
+mkdir -p "$ABUT_GALLERY"
+"${CXX:-c++}" -std=c++20 -O0 -Iinclude docs/viewer/gallery.cpp -o "$ABUT_GALLERY/gallery"
+"$ABUT_GALLERY/gallery" "$ABUT_GALLERY"
 node build/viewer/node_modules/typescript/bin/tsc -p docs/viewer
 node --test --test-concurrency=1 tests/project/viewer/read.test.mjs tests/project/viewer/page.test.mjs

@@ -10,12 +10,13 @@ import {
   elementName,
   featureName,
   firstImpact,
+  measureOf,
   noun,
   partnersOf,
   timeOf,
   timeText,
 } from "./results";
-import { featuresOf, kindsOfImpact, placeOf, Result, Scene } from "./scene";
+import { featuresOf, hasPlaces, kindsOfImpact, placeOf, Result, Scene } from "./scene";
 
 export type Selection = { kind: "element"; set: number; element: number } | { kind: "row"; result: number; row: number };
 
@@ -55,6 +56,8 @@ export class DetailsWriter {
     const all = this.scene.sets[set]!;
     const { span, corners, radii, shape } = all;
     const table = make("table", { class: "corners" });
+    for (const [name, values] of all.numbers) table.append(this.numbers(name, [values[element]!]));
+    if (shape === "surfaces") return table;
     for (let i = 0; i < Math.min(span, 3); ++i) {
       const at = element * span + i;
       const title =
@@ -90,10 +93,12 @@ export class DetailsWriter {
     const result = scene.results[number]!;
     if (result.kind === "impacts") return this.ofImpact(result, row);
     const parts: HTMLElement[] = [];
-    if (result.kind === "contacts") {
+    if (hasPlaces(result)) {
       const table = make("table", { id: "contact-numbers" });
       table.append(
-        this.numbers("depth", [result.depths[row]!]),
+        result.kind === "contacts"
+          ? this.numbers("depth", [result.depths[row]!])
+          : this.numbers("of its way", [result.times[row]!]),
         this.place("point", result.points.subarray(3 * row, 3 * row + 3)),
         this.numbers("normal", result.normals.subarray(3 * row, 3 * row + 3)),
       );
@@ -108,7 +113,9 @@ export class DetailsWriter {
     const deepest = deepestContact(scene);
     const isDeepest = deepest?.result === number && deepest.row === row;
     return {
-      title: result.kind === "pairs" ? `Pair ${row}` : isDeepest ? `Deepest contact (number ${row})` : `Contact ${row}`,
+      title: isDeepest
+        ? `Deepest contact (number ${row})`
+        : `${{ pairs: "Pair", contacts: "Contact", sweeps: "Touch", safe_step: "" }[result.kind]} ${row}`,
       parts,
     };
   }
@@ -125,7 +132,7 @@ export class DetailsWriter {
         make(
           "td",
           { id: "impact-time" },
-          timeText(result, row) + (result.step > 0 ? ` of the step from frame ${result.step}` : ""),
+          timeText(result, row) + (scene.duration > 1 ? ` of step ${result.step}` : ""),
         ),
       ),
       make("tr", {}, make("th", { scope: "row" }, "kind"), make("td", {}, kindsOfImpact[result.kinds[row]!]!)),
@@ -175,16 +182,14 @@ export class DetailsWriter {
       const what =
         result.kind === "impacts"
           ? counted(partners.length, "impact")
-          : result.kind === "contacts"
-            ? counted(partners.length, "contact")
-            : counted(partners.length, "pair");
+          : counted(partners.length, result.kind === "contacts" ? "contact" : result.kind === "sweeps" ? "touch" : "pair");
       parts.push(make("h3", {}, partners.length === 0 ? `no ${result.kind}` : what));
       const items = partners.slice(0, mostPartners).map((partner) => {
         const text =
           result.kind === "impacts"
             ? `t = ${brief(result.times[partner.row]!)}`
             : `${noun(scene, partner.set)} ${scene.sets[partner.set]!.ids[partner.element]}` +
-              (result.kind === "contacts" ? `, ${shortest(result.depths[partner.row]!)} deep` : "");
+              (hasPlaces(result) ? `, ${measureOf(result, partner.row)}` : "");
         return make(
           "li",
           {},

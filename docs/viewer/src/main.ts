@@ -50,9 +50,9 @@ class Page {
     try {
       const scene = readScene(bytes, title);
       this.setMode("scene");
-      this.scenes.open(scene);
       byId("welcome").hidden = true;
       byId("scene-tools").hidden = false;
+      this.scenes.open(scene);
       document.title = `${title} – abut viewer`;
     } catch (error) {
       say(error instanceof FileError ? `${title}: ${error.message}` : `${title}: cannot be shown: ${String(error)}`);
@@ -159,6 +159,7 @@ class Page {
       ["d", "deepest contact, or first impact", inScene(() => scenes.headline())],
       ["f", "show all", () => (this.mode === "cases" ? this.cases?.stage.look(false) : scenes.fit())],
       ["h", "hits only", toggle("hits-only")],
+      ["s", "solid bodies, and ghosts again", toggle("solid")],
       [
         "e",
         "sets apart, and together again",

@@ -3,7 +3,7 @@
 // Results as rows of a list, in words, and as what stands out in the picture.
 
 import { brief, shortest } from "./dom";
-import { featuresOf, greatest, least, Result, Scene } from "./scene";
+import { featuresOf, greatest, hasPlaces, least, Result, Scene } from "./scene";
 import { Mark } from "./marks";
 import { Column } from "./virtual_list";
 
@@ -13,10 +13,12 @@ const nouns: { [shape: string]: string } = {
   segments: "segment",
   points: "point",
   boxes: "box",
+  surfaces: "shape",
 };
 
 export function noun(scene: Scene, set: number): string {
-  return nouns[scene.sets[set]!.shape]!;
+  const { shape, role } = scene.sets[set]!;
+  return role === "patches" ? "patch" : nouns[shape]!;
 }
 
 export function elementName(scene: Scene, set: number, id: number): string {
@@ -37,8 +39,10 @@ export function timeText(result: Result, row: number): string {
 }
 
 export function titleOf(scene: Scene, result: Result): string {
-  const [a, b] = [scene.sets[result.a]!.name, scene.sets[result.b]!.name];
-  const what = { pairs: "Pairs", contacts: "Contacts", impacts: "Impacts" }[result.kind];
+  // Of a long name both ends: a list of choices has one line for each.
+  const short = (name: string) => (name.length > 16 ? `${name.slice(0, 8)}…${name.slice(-7)}` : name);
+  const [a, b] = [short(scene.sets[result.a]!.name), short(scene.sets[result.b]!.name)];
+  const what = { pairs: "Pairs", contacts: "Contacts", impacts: "Impacts", sweeps: "Touches", safe_step: "Safe step" }[result.kind];
   return `${what}: ${a}${result.a === result.b ? " with itself" : ` and ${b}`} (${result.count.toLocaleString("en")})`;
 }
 
@@ -82,7 +86,11 @@ export function columnsOf(result: Result): Column[] {
       key: (i) => result.bIds[i]!,
     },
   ];
-  if (result.kind === "pairs") return [number, ...ids];
+  if (!hasPlaces(result)) return [number, ...ids];
+  if (result.kind === "sweeps") {
+    const time = (i: number) => result.times[i]!;
+    return [number, { title: "of its way", explain: "Sort by time", width: "104px", text: (i) => shortest(time(i)), key: time }, ...ids];
+  }
   const depth: Column = {
     title: "depth",
     explain: "Sort by depth",
@@ -153,6 +161,18 @@ export function firstImpact(scene: Scene): Place | undefined {
     if (before === undefined || timeOf(result, row) < timeOf(before, best!.row)) best = { result: i, row };
   });
   return best;
+}
+
+/** What is touched first of all that sweeps. */
+export function firstTouch(scene: Scene): Place | undefined {
+  const places = scene.results.flatMap((r, result) => (r.kind === "sweeps" && r.count > 0 ? [{ result, row: least(r.times) }] : []));
+  const time = ({ result, row }: Place) => scene.results[result]!.times[row]!;
+  return places.sort((p, q) => time(p) - time(q))[0];
+}
+
+/** What is said of a contact or of the end of a sweep, in a few words. */
+export function measureOf(result: Result, row: number): string {
+  return result.kind === "contacts" ? `${shortest(result.depths[row]!)} deep` : `after ${shortest(result.times[row]!)} of its way`;
 }
 
 /** The deepest contact of all. */

@@ -5,9 +5,12 @@
 
 import { Accessor, entry, FileError, Glb, isObject, Json, list, refuse, shown, whole } from "./glb";
 
-export const shapes = ["triangles", "spheres", "segments", "points", "boxes"] as const;
+export const shapes = ["triangles", "spheres", "segments", "points", "boxes", "surfaces"] as const;
 export type Shape = (typeof shapes)[number];
-export const kindsOfResult = ["pairs", "contacts", "impacts"] as const;
+/** What a set is in a scene, if it is no body: what was found, drawn. */
+export const roles = ["curves", "patches", "move", "ways"] as const;
+export type Role = (typeof roles)[number];
+export const kindsOfResult = ["pairs", "contacts", "impacts", "sweeps", "safe_step"] as const;
 export type KindOfResult = (typeof kindsOfResult)[number];
 export const kindsOfImpact = ["vertex and face", "face and vertex", "edge and edge"] as const;
 
@@ -23,7 +26,11 @@ export interface ShapeSet {
   radii: Float32Array | undefined;
   ids: Uint32Array; // one an element
   corners: Uint32Array | undefined; // a mesh's vertex numbers, one a drawn vertex
-  hit: Uint8Array; // one an element
+  role: Role | "";
+  move: number[] | undefined; // of an arrow: how far and where it points
+  numbers: [string, Float32Array][]; // what is said of each element
+  hit: Uint8Array; // one an element: whether it is hit in some step
+  hitSteps: Map<number, Uint8Array>; // in which step of a motion; empty where what is hit is so at all times
   hits: number;
   hitIsGiven: boolean;
   elementOf(id: number): number; // -1 if there is none
@@ -39,11 +46,13 @@ export interface Result {
   step: number; // of impacts: the time at which their step begins
   aIds: Uint32Array; // pairs and contacts
   bIds: Uint32Array;
-  points: Float32Array; // contacts
+  part: number; // of a safe step: how much of the step is free
+  points: Float32Array; // contacts and sweeps
   normals: Float32Array;
   depths: Float32Array;
   kinds: Uint8Array; // impacts
   vertices: Uint32Array;
+  // Of sweeps: after which part of its way a shape touches.
   times: Float32Array;
   exactTimes: string[] | undefined;
 }
@@ -132,7 +141,17 @@ class Reader {
     const elementOf = inverse(drawn.ids);
     const vertexAt = inverse(drawn.corners ?? none.u32);
     const of = whole(value.of, `${where}: of`, count);
-    return { name, shape, count, of, hit, hits: 0, hitIsGiven: value.hit !== undefined, elementOf, vertexAt, ...drawn };
+    if (value.role !== undefined && !roles.includes(value.role as Role))
+      refuse(`${where}: role: expected one of ${roles.join(", ")}, got ${shown(value.role)}`);
+    const role = (value.role as Role | undefined) ?? "";
+    const numbers = Object.entries(isObject(value.numbers) ? value.numbers : {}).map(([name, accessor]): [string, Float32Array] => {
+      const found = this.glb.accessor(accessor, `${where}: numbers: ${name}`, "SCALAR", "FLOAT");
+      sameCount(found.count, count, `${where}: numbers: ${name}`);
+      return [name, found.values as Float32Array];
+    });
+    const move = value.move === undefined ? undefined : vector(value.move, [0, 0, 0], `${where}: move`);
+    const hitIsGiven = value.hit !== undefined;
+    return { name, shape, count, of, role, move, numbers, hit, hitSteps: new Map(), hits: 0, hitIsGiven, elementOf, vertexAt, ...drawn };
   }
 
   private nothing(): Drawn {
@@ -147,7 +166,7 @@ class Reader {
     const node = this.node(set.node, where);
     const mesh = entry(this.meshes, whole(node.mesh, `${where}: mesh`), `${where}: mesh`);
     const primitive = entry(list(mesh.primitives, `${where}: primitives`), 0, `${where}: primitive`);
-    const modes: { [shape: string]: number } = { triangles: 4, boxes: 4, segments: 1, points: 0 };
+    const modes: { [shape: string]: number } = { triangles: 4, boxes: 4, surfaces: 4, segments: 1, points: 0 };
     const mode = whole(primitive.mode, `${where}: mode`, 4);
     if (mode !== modes[shape]) refuse(`${where}: ${shape} are drawn by mode ${modes[shape]}, got ${mode}`);
     if (primitive.indices !== undefined) refuse(`${where}: expected vertices in the order of the elements, got indices`);
@@ -155,7 +174,7 @@ class Reader {
     const positions = this.glb.floats(attributes.POSITION, `${where}: POSITION`, "VEC3");
     const vertices = positions.length / 3;
     const span = shape === "triangles" ? 3 : shape === "segments" ? 2 : shape === "points" ? 1 : vertices / count;
-    if (vertices !== span * count || (shape === "boxes" && span % 3 !== 0))
+    if (vertices !== span * count || (modes[shape] === 4 && span % 3 !== 0))
       refuse(`${where}: count says ${count} ${shape}, and there are ${vertices} vertices`);
     const frames = list(primitive.targets, `${where}: targets`).map((target, i) => {
       const name = `${where}: targets ${i}: POSITION`;
@@ -255,8 +274,11 @@ class Reader {
       kinds: none.u8,
       vertices: none.u32,
       times: none.f32,
+      part: kind === "safe_step" ? vector([value.part], [0], `${where}: part`)[0]! : 0,
       exactTimes: undefined,
     };
+    if (result.part < 0 || result.part > 1) refuse(`${where}: part: ${result.part} is not in [0, 1]`);
+    if (kind === "safe_step" && count !== 0) refuse(`${where}: a safe step has no rows, and count is ${count}`);
     if (count === 0) return result;
     if (kind !== "impacts") {
       result.aIds = read("a_ids", "SCALAR", "UNSIGNED_INT", count).values as Uint32Array;
@@ -264,16 +286,21 @@ class Reader {
       this.refuseUnknown(result.aIds, sets[a]!, `${where}: a_ids`);
       this.refuseUnknown(result.bIds, sets[b]!, `${where}: b_ids`);
     }
-    if (kind === "contacts") {
+    if (hasPlaces(result)) {
       result.points = read("points", "VEC3", "FLOAT", count).values as Float32Array;
       result.normals = read("normals", "VEC3", "FLOAT", count).values as Float32Array;
-      result.depths = read("depths", "SCALAR", "FLOAT", count).values as Float32Array;
       refuseUnlessFinite(result.points, `${where}: points`);
+    }
+    if (kind === "contacts") result.depths = read("depths", "SCALAR", "FLOAT", count).values as Float32Array;
+    if (kind === "impacts" || kind === "sweeps") {
+      result.times = read("times", "SCALAR", "FLOAT", count).values as Float32Array;
+      result.times.forEach((time, i) => {
+        if (!(time >= 0 && time <= 1)) refuse(`${where}: times: element ${i}: ${time} is not in [0, 1]`);
+      });
     }
     if (kind === "impacts") {
       result.kinds = read("kinds", "SCALAR", "UNSIGNED_BYTE", count).values as Uint8Array;
       result.vertices = read("vertices", "SCALAR", "UNSIGNED_INT", 4 * count).values as Uint32Array;
-      result.times = read("times", "SCALAR", "FLOAT", count).values as Float32Array;
       this.refuseImpacts(result, sets, where);
       if (value.times_exact !== undefined) {
         const texts = list(value.times_exact, `${where}: times_exact`);
@@ -293,8 +320,6 @@ class Reader {
   private refuseImpacts(result: Result, sets: ShapeSet[], where: string): void {
     for (let i = 0; i < result.count; ++i) {
       if (result.kinds[i]! >= kindsOfImpact.length) refuse(`${where}: kinds: element ${i}: no kind ${result.kinds[i]}`);
-      if (!(result.times[i]! >= 0 && result.times[i]! <= 1))
-        refuse(`${where}: times: element ${i}: ${result.times[i]} is not in [0, 1]`);
       for (const { set, vertices } of featuresOf(result, i)) {
         for (const v of vertices) {
           if (sets[set]!.vertexAt(v) < 0)
@@ -303,6 +328,11 @@ class Reader {
       }
     }
   }
+}
+
+/** Whether each row has a point and a normal. */
+export function hasPlaces(result: Result): boolean {
+  return result.kind === "contacts" || result.kind === "sweeps";
 }
 
 export interface Feature {
@@ -359,7 +389,7 @@ export function least(values: Float32Array): number {
 }
 
 /** A face is hit where a vertex, an edge or all of it is in an impact. */
-function markImpacts(set: ShapeSet, side: number, result: Result): void {
+function markImpacts(set: ShapeSet, side: number, result: Result, hit: Uint8Array): void {
   const met: Set<string | number>[] = [new Set(), new Set(), new Set()];
   const corners = set.corners;
   if (corners === undefined) return;
@@ -381,21 +411,45 @@ function markImpacts(set: ShapeSet, side: number, result: Result): void {
     const [p, q, r] = [corners[e * set.span]!, corners[e * set.span + 1]!, corners[e * set.span + 2]!];
     if (!touched.has(p) && !touched.has(q) && !touched.has(r)) continue;
     const features = [[p], [q], [r], [p, q], [q, r], [r, p], [p, q, r]];
-    if (features.some((feature) => met[feature.length - 1]!.has(key(feature)))) set.hit[e] = 1;
+    if (features.some((feature) => met[feature.length - 1]!.has(key(feature)))) hit[e] = 1;
   }
 }
 
-/** What a result touches is hit, whether the set says so or not. */
+const otherSteps = -1;
+
+/** What is hit in a step of a motion: all that is, where no step is known. */
+export function hitsAt(set: ShapeSet, step: number): Uint8Array {
+  return set.hitSteps.get(step) ?? set.hitSteps.get(otherSteps) ?? set.hit;
+}
+
+/** What a result touches is hit, whether the set says so or not; what an impact touches, in its step alone. */
 function markHits(sets: ShapeSet[], results: Result[]): void {
+  const given = sets.map((set) => set.hit);
+  for (const set of sets) set.hit = new Uint8Array(set.count);
   for (const result of results) {
     const a = sets[result.a]!;
     const b = sets[result.b]!;
     for (const id of result.aIds) a.hit[a.elementOf(id)] = 1;
     for (const id of result.bIds) b.hit[b.elementOf(id)] = 1;
-    if (result.kind !== "impacts") continue;
-    for (const side of new Set([result.a, result.b])) if (!sets[side]!.hitIsGiven) markImpacts(sets[side]!, side, result);
   }
-  for (const set of sets) set.hits = set.hit.reduce((sum, h) => sum + h, 0);
+  sets.forEach((set, side) => {
+    const impacts = results.filter((r) => r.kind === "impacts" && r.count > 0 && (r.a === side || r.b === side));
+    const steps = new Set(impacts.map((r) => r.step));
+    const together = (one: Uint8Array, other: Uint8Array) => one.map((h, e) => h | other[e]!);
+    // What the file says is hit is so in the step of the impacts. Of several steps it does not tell them apart.
+    if (steps.size === 0 || (set.hitIsGiven && steps.size > 1)) {
+      set.hit = together(set.hit, given[side]!);
+    } else {
+      set.hitSteps.set(otherSteps, set.hit);
+      for (const step of steps) {
+        const hit = together(set.hit, given[side]!);
+        if (!set.hitIsGiven) for (const r of impacts) if (r.step === step) markImpacts(set, side, r, hit);
+        set.hitSteps.set(step, hit);
+      }
+      for (const hit of set.hitSteps.values()) set.hit = together(set.hit, hit);
+    }
+    set.hits = set.hit.reduce((sum, h) => sum + h, 0);
+  });
 }
 
 export function readScene(bytes: Uint8Array, title: string): Scene {

@@ -3,7 +3,7 @@
 // A scene on the page: summary, what is selected, the list, and the controls under the picture.
 
 import * as THREE from "three";
-import { byId, counted, cssColour, make, shortest } from "./dom";
+import { brief, byId, counted, cssColour, make, shortest } from "./dom";
 import { DetailsWriter, Selection } from "./details";
 import { Label, Labels } from "./labels";
 import {
@@ -14,7 +14,9 @@ import {
   elementName,
   featureName,
   firstImpact,
+  firstTouch,
   marksOf,
+  measureOf,
   noun,
   partnersOf,
   Place,
@@ -23,9 +25,9 @@ import {
   timeText,
   titleOf,
 } from "./results";
-import { featuresOf, Scene } from "./scene";
+import { featuresOf, greatest, hasPlaces, Result, Role, Scene } from "./scene";
 import { Mark } from "./marks";
-import { Palette, Picked, Stage } from "./stage";
+import { Bodies, Palette, Picked, Stage } from "./stage";
 import { View } from "./view";
 import { VirtualList } from "./virtual_list";
 
@@ -53,7 +55,8 @@ export class SceneMode {
     byId("play").addEventListener("click", () => this.play());
     byId("first-impact").addEventListener("click", () => this.headline());
     byId("fit").addEventListener("click", () => this.fit());
-    byId("hits-only").addEventListener("change", () => this.stage && (this.stage.hitsOnly = this.checked("hits-only")));
+    byId("hits-only").addEventListener("change", () => this.setBodies());
+    byId("solid").addEventListener("change", () => this.setBodies());
     byId("z-up").addEventListener("change", () => this.turnUp());
     byId("explode").addEventListener("input", () => this.setExplode());
     byId("arrows").addEventListener("input", () => this.setArrows());
@@ -71,8 +74,10 @@ export class SceneMode {
     byId("time-tools").hidden = scene.duration === 0;
     this.time.max = String(scene.duration || 1);
     byId("first-impact").hidden = this.first === undefined;
-    byId("arrow-tools").hidden = !scene.results.some((r) => r.kind === "contacts" && r.count > 0);
+    byId("arrow-tools").hidden = !scene.results.some((r) => hasPlaces(r) && r.count > 0);
     byId<HTMLInputElement>("hits-only").checked = false;
+    byId<HTMLInputElement>("solid").checked = scene.sets.every((set) => set.hits === 0);
+    this.setBodies();
     byId<HTMLInputElement>("z-up").checked = fallsAlongZ(scene);
     this.stage.zUp = this.checked("z-up");
     byId<HTMLInputElement>("explode").value = "0";
@@ -81,12 +86,14 @@ export class SceneMode {
     this.setArrows();
     this.writeSummary();
     this.writeDetails();
+    const isList = (result: Result) => result.kind !== "safe_step";
     this.which.replaceChildren(
-      ...scene.results.map((result, i) => make("option", { value: String(i) }, titleOf(scene, result))),
+      ...scene.results.flatMap((r, i) => (isList(r) ? [make("option", { value: String(i) }, titleOf(scene, r))] : [])),
     );
-    byId("rows").hidden = scene.results.length === 0;
-    if (scene.results.length > 0) this.showResult(this.headlineResult());
+    byId("rows").hidden = !scene.results.some(isList);
+    if (scene.results.some(isList)) this.showResult(this.headlineResult());
     this.fit(true);
+    this.firstSight();
   }
 
   show(): void {
@@ -104,6 +111,7 @@ export class SceneMode {
       deepest: cssColour("deepest"),
       a: cssColour("a"),
       b: cssColour("b"),
+      roles: { curves: cssColour("curve"), patches: cssColour("patch"), move: cssColour("move"), ways: cssColour("move") },
       sets: [0, 1, 2, 3].map((i) => cssColour(`set-${i}`)),
     };
     this.stage?.paint(palette);
@@ -124,28 +132,46 @@ export class SceneMode {
   }
 
   private headlineResult(): number {
-    const first = this.scene!.results.findIndex((r) => r.count > 0);
-    return this.deepest?.result ?? this.first?.result ?? Math.max(0, first);
+    return this.headlinePlace()?.result ?? this.scene!.results.findIndex((r) => r.kind !== "safe_step");
   }
 
-  /** Goes to what matters most: the deepest contact, or the first impact, or the first pair. */
+  /** What matters most: the deepest contact, or the first impact, or what sweeps and touches first, or the first pair. */
+  private headlinePlace(): Place | undefined {
+    const pairs = this.scene!.results.findIndex((r) => r.count > 0);
+    return this.deepest ?? this.first ?? firstTouch(this.scene!) ?? (pairs >= 0 ? { result: pairs, row: 0 } : undefined);
+  }
+
+  /** Goes there. */
   headline(): void {
-    if (this.scene === undefined) return;
-    const pairs = this.scene.results.findIndex((r) => r.count > 0);
-    const place = this.deepest ?? this.first ?? (pairs >= 0 ? { result: pairs, row: 0 } : undefined);
+    const place = this.scene && this.headlinePlace();
     if (place !== undefined) this.select({ kind: "row", ...place }, true);
+  }
+
+  /** A scene opens with what matters most selected, in view on the side that looks at the eye, and all the rest around it. */
+  private firstSight(): void {
+    const place = this.headlinePlace();
+    if (place === undefined) return;
+    this.select({ kind: "row", ...place }, false);
+    const marks = this.marks();
+    const at = this.placeOfSelection(marks);
+    const away = 0.8 * this.wholeAway;
+    const target = at.multiplyScalar(0.5).add(this.lowered(away));
+    this.view.place(target.clone().addScaledVector(this.wayTo(marks, firstWay), away), target);
   }
 
   private writeSummary(): void {
     const scene = this.scene!;
     const parts: HTMLElement[] = [];
-    const button = (what: string, value: string, more: string, place: Place) =>
+    const card = (what: string, value: string, more: string, action: string, act: () => void) =>
       make(
         "button",
-        { class: "headline", type: "button", onclick: () => this.select({ kind: "row", ...place }, true) },
+        { class: "headline", type: "button", onclick: act },
         make("b", {}, `${what}: `, make("i", { class: "value" }, value)),
-        make("span", {}, `${more}. Show it`),
+        make("span", {}, more),
+        make("span", { class: "go" }, action),
       );
+    const button = (what: string, value: string, more: string, place: Place) =>
+      card(what, value, more, "Go there →", () => this.select({ kind: "row", ...place }, true));
     const deep = this.deepest;
     if (deep !== undefined) {
       const r = scene.results[deep.result]!;
@@ -162,10 +188,16 @@ export class SceneMode {
         button(
           "First impact",
           `t = ${timeText(r, first.row)}`,
-          more + (r.step > 0 ? `, in the step from frame ${r.step}` : ""),
+          more + (scene.duration > 1 ? `, in step ${r.step} of ${scene.duration}` : ""),
           first,
         ),
       );
+    }
+    const touch = firstTouch(scene);
+    if (touch !== undefined) {
+      const r = scene.results[touch.result]!;
+      const more = `${elementName(scene, r.a, r.aIds[touch.row]!)} touches ${elementName(scene, r.b, r.bIds[touch.row]!)}`;
+      parts.push(button("First touch", measureOf(r, touch.row), more, touch));
     }
     const pairs = scene.results.findIndex((r) => r.kind === "pairs" && r.count > 0);
     if (parts.length === 0 && pairs >= 0) {
@@ -178,7 +210,29 @@ export class SceneMode {
         }),
       );
     }
-    if (parts.length === 0) parts.push(make("p", { class: "answer no" }, "Nothing touches."));
+    scene.sets.forEach((set, i) => {
+      const depths = set.role === "patches" ? set.numbers.find(([name]) => name === "depth")?.[1] : undefined;
+      if (depths === undefined) return;
+      const deepest = greatest(depths);
+      const more = [`deepest of ${counted(set.count, "patch")}`, ...set.numbers.map(([name, of]) => `${name} ${brief(of[deepest]!)}`)];
+      parts.push(
+        card(set.name, `${shortest(depths[deepest]!)} deep`, more.join(", "), "Go there →", () =>
+          this.select({ kind: "element", set: i, element: deepest }, true),
+        ),
+      );
+    });
+    if (parts.length === 0 && scene.sets.every((set) => set.hits === 0))
+      parts.push(make("p", { class: "answer no" }, "Nothing touches."));
+    for (const { kind, part, step } of scene.results) {
+      if (kind !== "safe_step") continue;
+      const more = scene.duration > 1 ? `of step ${step} of ${scene.duration} is free` : "of the way is free";
+      parts.push(card("Safe step", String(part), more, "Show it →", () => this.setTime(step + part, step, part)));
+    }
+    for (const { name, move } of scene.sets) {
+      if (move === undefined || scene.duration === 0) continue;
+      const more = `a move by ${move.map(brief).join(", ")}`;
+      parts.push(card(name, `${brief(Math.hypot(...move))} long`, more, "Play it ▶", () => this.play(0)));
+    }
     const table = make("table", { class: "sets" });
     scene.sets.forEach((set, i) => {
       const toggle = make("input", {
@@ -187,7 +241,7 @@ export class SceneMode {
         "aria-label": `Show ${set.name}`,
         onchange: (event) => this.stage!.showSet(i, (event.target as HTMLInputElement).checked),
       });
-      const swatch = make("span", { class: "swatch", style: `background: var(--set-${i % 4})` });
+      const swatch = make("span", { class: "swatch", style: `background: var(--${swatchOf(set.role, i)})` });
       const hits = set.hits > 0 ? `${set.hits.toLocaleString("en")} hit` : "no hit";
       table.append(
         make(
@@ -215,7 +269,7 @@ export class SceneMode {
     this.search.value = "";
     this.filter();
     const result = this.scene!.results[number]!;
-    if (result.kind !== "pairs") this.list.sort(1, result.kind === "contacts");
+    if (result.kind === "impacts" || hasPlaces(result)) this.list.sort(1, result.kind === "contacts");
     this.arrowsOfSelection();
   }
 
@@ -254,7 +308,8 @@ export class SceneMode {
     if (selection?.kind === "row") {
       if (selection.result !== this.shown) this.showResult(selection.result);
       const result = this.scene.results[selection.result]!;
-      if (result.kind === "impacts") this.setTime(timeOf(result, selection.row));
+      if (result.kind === "impacts") this.setTime(timeOf(result, selection.row), result.step, result.times[selection.row]!);
+      if (result.kind === "sweeps") this.setTime(this.scene.duration); // each has stopped where it touches
     }
     this.stage.mark(this.marks());
     this.arrowsOfSelection();
@@ -282,7 +337,7 @@ export class SceneMode {
     if (s.kind === "row") {
       const result = scene.results[s.result]!;
       const marks = marksOf(scene, result, s.row);
-      if (result.kind === "contacts") marks[0]!.contact = { result: s.result, row: s.row };
+      if (hasPlaces(result)) marks[0]!.contact = { result: s.result, row: s.row };
       return marks;
     }
     const marks: Mark[] = [{ set: s.set, side: "a", elements: [s.element] }];
@@ -302,15 +357,42 @@ export class SceneMode {
   }
 
   private flyThere(): void {
-    const s = this.selection!;
     const marks = this.marks();
-    const ball = this.stage!.ballOf(s.kind === "row" ? marks : marks.slice(0, 1));
-    const isContact = s.kind === "row" && this.scene!.results[s.result]!.kind === "contacts";
-    const at =
-      isContact && byId<HTMLInputElement>("explode").value === "0"
-        ? this.stage!.pointOfContact(s.result, s.row)
-        : ball.center;
-    this.view.fly(at, Math.min(3.2, Math.max(6 * ball.radius, 0.004)));
+    const ball = this.stage!.ballOf(this.selection!.kind === "row" ? marks : marks.slice(0, 1));
+    const way = this.wayTo(marks, this.view.camera.position.clone().sub(this.view.controls.target));
+    this.view.fly(this.placeOfSelection(marks), Math.min(3.2, Math.max(6 * ball.radius, 0.004)), way);
+  }
+
+  private placeOfSelection(marks: Mark[]): THREE.Vector3 {
+    const s = this.selection!;
+    if (s.kind === "row" && this.contactOf(s) !== undefined && byId<HTMLInputElement>("explode").value === "0")
+      return this.stage!.pointOfContact(s.result, s.row);
+    return this.stage!.ballOf(s.kind === "row" ? marks : marks.slice(0, 1)).center;
+  }
+
+  private contactOf(s: Selection): Result | undefined {
+    const result = s.kind === "row" ? this.scene!.results[s.result]! : undefined;
+    return result !== undefined && hasPlaces(result) ? result : undefined;
+  }
+
+  /**
+   * The direction from which to look at marks: that of `now`, turned only as far as the first face, and the others that can be, are
+   * seen from their front. Not straight on: an arrow along the normal would be a point.
+   */
+  private wayTo(marks: Mark[], now: THREE.Vector3): THREE.Vector3 {
+    const way = now.clone().normalize();
+    const isRow = this.selection!.kind === "row";
+    const fronts = (isRow ? marks : marks.slice(0, 1)).flatMap((mark) => this.stage!.frontOf(mark) ?? []);
+    const first = fronts[0];
+    if (first === undefined) return way;
+    const all = fronts.reduce((sum, n) => sum.add(n), new THREE.Vector3()).normalize();
+    const together = fronts.every((n) => n.dot(all) > 0.75);
+    const seen = (together ? fronts : [first]).map((n) => way.dot(n));
+    if (Math.min(...seen) > 0.4 && Math.max(...seen) < 0.95) return way;
+    const front = together ? all : first;
+    const aside = way.addScaledVector(front, -way.dot(front));
+    if (aside.lengthSq() < 1e-6) aside.set(front.y, front.z, front.x).addScaledVector(front, -front.dot(aside));
+    return aside.normalize().multiplyScalar(0.45).addScaledVector(front, 0.9).normalize();
   }
 
   refreshLabels(): void {
@@ -326,10 +408,9 @@ export class SceneMode {
           : `${noun(scene, mark.set)} ${scene.sets[mark.set]!.ids[mark.elements![0]!]}`;
       words.push({ at: this.stage.ballOf([mark]).center, text: `${mark.side} · ${name}`, look: mark.side });
     }
-    if (s.kind === "row" && scene.results[s.result]!.kind === "contacts") {
-      const depth = shortest(scene.results[s.result]!.depths[s.row]!);
-      words.push({ at: this.stage.pointOfContact(s.result, s.row), text: `${depth} deep`, look: "depth" });
-    }
+    const contact = this.contactOf(s);
+    if (s.kind === "row" && contact !== undefined)
+      words.push({ at: this.stage.pointOfContact(s.result, s.row), text: measureOf(contact, s.row), look: "depth" });
     this.labels.set(words);
   }
 
@@ -362,12 +443,27 @@ export class SceneMode {
 
   fit(atOnce = false): void {
     if (this.stage === undefined) return;
-    const away = 3.1 / Math.min(1, this.view.camera.aspect) ** 0.9;
-    const middle = new THREE.Vector3(0, -0.08, 0);
-    const direction = new THREE.Vector3(0.55, 0.42, 0.9).normalize();
+    const away = this.wholeAway;
+    const middle = this.lowered(away);
     if (atOnce) this.view.show(this.stage);
-    if (atOnce) this.view.place(middle.clone().addScaledVector(direction, away), middle);
-    else this.view.fly(middle, away, direction);
+    if (atOnce) this.view.place(middle.clone().addScaledVector(firstWay, away), middle);
+    else this.view.fly(middle, away, firstWay);
+  }
+
+  /** How far from the middle all can be seen. */
+  private get wholeAway(): number {
+    return 3.1 / Math.min(1, this.view.camera.aspect) ** 0.9;
+  }
+
+  /** Below the middle of the scene as far as that has to be above the picture's middle, for the controls cover its lower edge. */
+  private lowered(away: number): THREE.Vector3 {
+    const covered = byId("scene-tools").offsetHeight / Math.max(1, this.view.height);
+    return new THREE.Vector3(0, -covered * away * Math.tan(THREE.MathUtils.degToRad(this.view.camera.fov / 2)), 0);
+  }
+
+  private setBodies(): void {
+    const how: Bodies = this.checked("hits-only") ? "faint" : this.checked("solid") ? "solid" : "ghost";
+    if (this.stage !== undefined) this.stage.bodies = how;
   }
 
   private turnUp(): void {
@@ -388,18 +484,30 @@ export class SceneMode {
     if (this.stage !== undefined) this.stage.arrowLength = 0.6 * Number(byId<HTMLInputElement>("arrows").value) ** 2;
   }
 
-  setTime(value: number): void {
+  /** A moment at which one step ends and the next begins is of the next, unless it is said to be of the other. */
+  setTime(value: number, step = Math.min(Math.floor(value), Math.max(0, this.scene!.duration - 1)), exact?: number): void {
     if (this.stage === undefined) return;
     this.stage.time = value;
+    this.stage.step = step;
     this.time.value = String(value);
     const { duration } = this.scene!;
-    byId("time-value").textContent = duration > 1 ? `${value.toFixed(3)} of ${duration}` : `t = ${value.toFixed(4)}`;
+    byId("time-value").textContent =
+      (duration > 1 ? `step ${step} of ${duration}, ` : "") +
+      `t = ${exact === undefined ? (value - step).toFixed(3) : Number(exact.toPrecision(3))}`;
     this.refreshLabels();
     if (this.selection?.kind === "element" && this.playing === 0) this.writeDetails(); // its corners have moved
   }
 
-  play(): void {
-    if (this.playing !== 0) return this.stop();
+  /** Plays the motion from where it is, or from a moment; or stops it. */
+  play(from?: number): void {
+    const wasPlaying = this.playing !== 0;
+    if (wasPlaying) this.stop();
+    if (wasPlaying && from === undefined) return;
+    if (from !== undefined) this.setTime(from);
+    this.run();
+  }
+
+  private run(): void {
     const duration = this.scene?.duration ?? 0;
     if (duration === 0) return;
     if (Number(this.time.value) >= duration) this.setTime(0);
@@ -438,6 +546,10 @@ export class SceneMode {
         ++bins[Math.min(bins.length - 1, Math.floor((timeOf(result, i) / duration) * bins.length))]!;
     }
     const most = bins.reduce((x, y) => Math.max(x, y), 1);
+    pen.fillStyle = cssColour("good");
+    for (const { kind, part, step } of this.scene?.results ?? []) {
+      if (kind === "safe_step") pen.fillRect((step / duration) * width, height - 4, Math.max(2, (part / duration) * width), 4);
+    }
     pen.fillStyle = cssColour("mark");
     bins.forEach((n, x) => {
       const tall = n === 0 ? 0 : 3 + (height - 4) * Math.sqrt(n / most);
@@ -453,6 +565,14 @@ export class SceneMode {
     pen.fill();
   }
 }
+
+/** The name of a set's colour. */
+function swatchOf(role: Role | "", number: number): string {
+  return { "": `set-${number % 4}`, curves: "curve", patches: "patch", move: "move", ways: "move" }[role];
+}
+
+/** From which scenes are looked at first. */
+const firstWay = new THREE.Vector3(0.55, 0.42, 0.9).normalize();
 
 /** Whether what moves goes along z more than along x and y, as things fall where z is up. */
 function fallsAlongZ(scene: Scene): boolean {

@@ -14,7 +14,7 @@ in vec3 center;
 in float radius;
 #endif
 in float hit;
-uniform bool hitsOnly;
+uniform int which; // 0 all elements, 1 those that are hit, 2 the others
 uniform float pointSize;
 out vec3 viewed;
 out vec3 smoothNormal;
@@ -39,11 +39,11 @@ void main() {
   vec4 at = modelViewMatrix * vec4(p, 1.0);
   viewed = at.xyz;
   isHit = hit;
-  int which = gl_VertexID % 3;
-  corner = vec3(float(which == 0), float(which == 1), float(which == 2));
+  int k = gl_VertexID % 3;
+  corner = vec3(float(k == 0), float(k == 1), float(k == 2));
   gl_Position = projectionMatrix * at;
   gl_PointSize = pointSize;
-  if (hitsOnly && hit < 0.5) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+  if (which == (hit < 0.5 ? 1 : 2)) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
 #ifdef PICK
 #ifdef SPHERES
   code = base + uint(gl_InstanceID);
@@ -53,7 +53,49 @@ void main() {
 #endif
 }`;
 
-/** Flat shading from the surface itself, which also holds in motion. Edges are drawn where triangles are large enough. */
+/** A segment of a width in pixels, as four corners; a little before the surface that it lies on. */
+export const placeSegment = /* glsl */ `
+in vec3 from;
+in vec3 to;
+in float hit;
+uniform int which;
+uniform vec2 screen;
+uniform float width;
+out vec3 viewed;
+out vec3 smoothNormal;
+out vec3 corner;
+flat out float isHit;
+#ifdef PICK
+uniform uint base;
+flat out uint code;
+#endif
+
+void main() {
+  vec4 p = modelViewMatrix * vec4(from, 1.0);
+  vec4 q = modelViewMatrix * vec4(to, 1.0);
+  vec4 own = position.x < 0.5 ? p : q;
+  viewed = own.xyz;
+  smoothNormal = vec3(0.0);
+  corner = vec3(0.0);
+  isHit = hit;
+  vec4 at = projectionMatrix * vec4(own.xyz * 0.998, 1.0);
+  vec4 a = projectionMatrix * p, b = projectionMatrix * q;
+  vec2 way = b.xy / b.w * screen - a.xy / a.w * screen;
+  way = dot(way, way) > 1e-6 ? normalize(way) : vec2(1.0, 0.0);
+  // The ends are half a width longer, so that the next segment of a curve goes on without a gap.
+  vec2 off = 0.5 * width * (vec2(-way.y, way.x) * position.y + way * (position.x < 0.5 ? -1.0 : 1.0));
+  gl_Position = vec4(at.xy + off / screen * at.w, at.z, at.w);
+  if (a.w <= 0.0 || b.w <= 0.0) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+  if (which == (hit < 0.5 ? 1 : 2)) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+#ifdef PICK
+  code = base + uint(gl_InstanceID);
+#endif
+}`;
+
+/**
+ * Flat shading from the surface itself, which also holds in motion. Edges are drawn where triangles are large enough. A ghost is
+ * faint where it is seen from the front, and stronger towards its outline.
+ */
 export const shadeShape = /* glsl */ `
 precision highp float;
 in vec3 viewed;
@@ -64,10 +106,14 @@ uniform vec3 plain;
 uniform vec3 struck;
 uniform vec3 ink;
 uniform float contrast;
+#ifdef GHOST
+uniform float veil;
+#endif
 out vec4 colour;
 
 void main() {
   vec3 own = mix(plain, struck, isHit);
+  float opacity = 1.0;
 #ifdef SURFACE
 #ifdef SPHERES
   vec3 normal = normalize(smoothNormal);
@@ -76,17 +122,25 @@ void main() {
 #endif
   float sun = max(dot(normal, normalize(vec3(-0.35, 0.55, 0.75))), 0.0);
   float fill = max(dot(normal, normalize(vec3(0.8, -0.2, 0.5))), 0.0);
-  float light = 0.46 + 0.52 * sun + 0.16 * fill;
+  float light = mix(0.46, 0.66, isHit) + 0.52 * sun * mix(1.0, 0.6, isHit) + 0.16 * fill;
+#ifdef GHOST
+  float facing = abs(dot(normal, normalize(viewed)));
+  opacity = veil * (0.25 + 0.75 * (1.0 - facing) * (1.0 - facing));
+#endif
   own *= mix(1.0, light, contrast);
 #ifndef SPHERES
   vec3 width = fwidth(corner);
   float across = max(width.x, max(width.y, width.z));
   vec3 near = smoothstep(vec3(0.0), width * 1.15, corner);
   float edge = 1.0 - min(near.x, min(near.y, near.z));
-  own = mix(own, ink, edge * 0.5 * (1.0 - smoothstep(0.02, 0.09, across)));
+  edge *= 0.5 * (1.0 - smoothstep(0.02, 0.09, across));
+  own = mix(own, ink, edge);
+#ifdef GHOST
+  opacity = max(opacity, 0.45 * veil * edge);
 #endif
 #endif
-  colour = vec4(own, 1.0);
+#endif
+  colour = vec4(own, opacity);
 }`;
 
 export const writeCode = /* glsl */ `

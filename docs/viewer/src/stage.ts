@@ -5,8 +5,8 @@
 
 import * as THREE from "three";
 import { Mark, markLimit, Marks } from "./marks";
-import { greatest, placeOf, Result, Scene, ShapeSet, stretchOf } from "./scene";
-import { placeArrow, placeShape, shadeArrow, shadeShape, writeCode } from "./shaders";
+import { greatest, hasPlaces, hitsAt, placeOf, Result, Role, Scene, ShapeSet, stretchOf } from "./scene";
+import { placeArrow, placeSegment, placeShape, shadeArrow, shadeShape, writeCode } from "./shaders";
 import { View, World } from "./view";
 
 export interface Palette {
@@ -18,7 +18,12 @@ export interface Palette {
   deepest: string;
   a: string;
   b: string;
+  roles: { [role in Role]: string };
 }
+
+/** How shapes are drawn that touch nothing. */
+export type Bodies = "solid" | "ghost" | "faint";
+const veils = { solid: 1, ghost: 0.75, faint: 0.3 };
 
 /** What lies under the pointer: an element of a set, or a contact. */
 export type Picked = { set: number; element: number } | { result: number; row: number };
@@ -26,6 +31,7 @@ export type Picked = { set: number; element: number } | { result: number; row: n
 interface Part {
   group: THREE.Group;
   object: THREE.Object3D;
+  ghost: THREE.Object3D | undefined; // of a surface: its elements that are not hit, where bodies are ghosts
   seen: THREE.ShaderMaterial;
   code: THREE.ShaderMaterial;
   part: { value: number }; // of the way from one frame to the next
@@ -48,7 +54,10 @@ export class Stage implements World {
   private readonly arrows: (Part & { result: number })[] = [];
   private readonly marks: Marks;
   private readonly shared = {
-    hitsOnly: { value: false },
+    seen: { value: 0 }, // which elements are drawn: placeShape
+    picked: { value: 0 },
+    others: { value: 2 },
+    veil: { value: 0.5 },
     pointSize: { value: 7 },
     screen: { value: new THREE.Vector2(1, 1) },
     ink: { value: colour("#000") },
@@ -62,6 +71,7 @@ export class Stage implements World {
   private explosion = 0;
   private reach = 0.06;
   private now = 0;
+  private shownStep = -1;
 
   constructor(
     readonly scene: Scene,
@@ -79,13 +89,14 @@ export class Stage implements World {
       base += set.count;
     });
     scene.results.forEach((result, number) => {
-      if (result.kind !== "contacts" || result.count === 0) return;
+      if (!hasPlaces(result) || result.count === 0) return;
       this.arrows.push({ ...this.contacts(result, base), result: number });
       base += result.count;
     });
     this.marks = new Marks(scene, this);
     this.content.add(this.marks.group);
     this.root.add(this.content);
+    this.step = 0;
   }
 
   // --- buffers ------------------------------------------------------------------------------------------------------------
@@ -120,11 +131,23 @@ export class Stage implements World {
 
   private shapes(set: ShapeSet, base: number, number: number): Part {
     const points = this.scaled(set.positions, true);
-    const isSurface = set.shape === "triangles" || set.shape === "boxes" || set.shape === "spheres";
+    const isSurface = set.shape === "triangles" || set.shape === "boxes" || set.shape === "surfaces" || set.shape === "spheres";
     const defines: { [name: string]: string | number } = { SPAN: set.span };
     if (isSurface) defines.SURFACE = 1;
+    // Segments that stand still are as wide as they are looked at; others are lines of one pixel.
+    const isWide = set.shape === "segments" && set.frames.length === 0;
     let geometry: THREE.BufferGeometry;
-    if (set.shape === "spheres") {
+    if (isWide) {
+      const instanced = new THREE.InstancedBufferGeometry();
+      const quad = new Float32Array([0, 1, 0, 0, -1, 0, 1, -1, 0, 0, 1, 0, 1, -1, 0, 1, 1, 0]);
+      instanced.setAttribute("position", new THREE.BufferAttribute(quad, 3));
+      const ends = new THREE.InstancedInterleavedBuffer(points, 6);
+      instanced.setAttribute("from", new THREE.InterleavedBufferAttribute(ends, 3, 0));
+      instanced.setAttribute("to", new THREE.InterleavedBufferAttribute(ends, 3, 3));
+      instanced.setAttribute("hit", new THREE.InstancedBufferAttribute(set.hit.slice(), 1));
+      instanced.instanceCount = set.count;
+      geometry = instanced;
+    } else if (set.shape === "spheres") {
       defines.SPHERES = 1;
       const rings = set.count <= 500 ? 24 : set.count <= 20000 ? 12 : 7;
       const ball = new THREE.SphereGeometry(1, 2 * rings, rings);
@@ -139,38 +162,53 @@ export class Stage implements World {
           1,
         ),
       );
-      instanced.setAttribute("hit", new THREE.InstancedBufferAttribute(set.hit, 1));
+      instanced.setAttribute("hit", new THREE.InstancedBufferAttribute(set.hit.slice(), 1));
       instanced.instanceCount = set.count;
       geometry = instanced;
     } else {
       geometry = new THREE.BufferGeometry();
       geometry.setAttribute("position", new THREE.BufferAttribute(points, 3));
-      const hit = new Uint8Array(points.length / 3);
-      for (let e = 0; e < set.count; ++e) if (set.hit[e] !== 0) hit.fill(1, e * set.span, (e + 1) * set.span);
-      geometry.setAttribute("hit", new THREE.BufferAttribute(hit, 1));
+      geometry.setAttribute("hit", new THREE.BufferAttribute(new Uint8Array(points.length / 3), 1));
       if (set.frames.length > 0) {
         defines.MOVES = 1;
         geometry.setAttribute("moveFrom", new THREE.BufferAttribute(new Float32Array(points.length), 3));
         geometry.setAttribute("moveTo", new THREE.BufferAttribute(this.scaled(set.frames[0]!, false), 3));
       }
     }
-    const { hitsOnly, pointSize, ink } = this.shared;
+    const { pointSize, ink, screen, veil } = this.shared;
     const part = { value: 0 };
-    const placed = { part, hitsOnly, pointSize };
-    const seen = this.material(placeShape, shadeShape, defines, {
+    const width = { value: set.role === "" ? 2 : 3.5 };
+    const placed = { part, pointSize, screen, width };
+    const place = isWide ? placeSegment : placeShape;
+    const look = {
       ...placed,
       ink,
       plain: { value: colour("#888") },
       struck: { value: colour("#e80") },
       contrast: { value: 1 },
-    });
-    const code = this.material(placeShape, writeCode, { ...defines, PICK: 1 }, { ...placed, base: { value: base } });
-    const object = isSurface
-      ? new THREE.Mesh(geometry, seen)
-      : set.shape === "segments"
-        ? new THREE.LineSegments(geometry, seen)
-        : new THREE.Points(geometry, seen);
-    return { ...this.part(object, seen, code, base, set.count, this.wayOut(set, number)), part };
+    };
+    // What is no surface is thin, and hides nothing: it is no ghost.
+    const which = isSurface ? this.shared.seen : this.shared.picked;
+    const seen = this.material(place, shadeShape, defines, { ...look, which });
+    const coded = { ...placed, which: this.shared.picked, base: { value: base } };
+    const code = this.material(place, writeCode, { ...defines, PICK: 1 }, coded);
+    if (set.role === "patches") Object.assign(seen, { polygonOffset: true, polygonOffsetFactor: -1, polygonOffsetUnits: -4 });
+    const object =
+      isSurface || isWide
+        ? new THREE.Mesh(geometry, seen)
+        : set.shape === "segments"
+          ? new THREE.LineSegments(geometry, seen)
+          : new THREE.Points(geometry, seen);
+    const made = { ...this.part(object, seen, code, base, set.count, this.wayOut(set, number)), part };
+    if (isSurface) {
+      const faint = this.material(place, shadeShape, { ...defines, GHOST: 1 }, { ...look, which: this.shared.others, veil });
+      Object.assign(faint, { transparent: true, depthWrite: false });
+      made.ghost = new THREE.Mesh(geometry, faint);
+      made.ghost.frustumCulled = false;
+      made.ghost.visible = false;
+      made.group.add(made.ghost);
+    }
+    return made;
   }
 
   private part(
@@ -185,7 +223,7 @@ export class Stage implements World {
     const group = new THREE.Group();
     group.add(object);
     this.content.add(group);
-    return { group, object, seen, code, away, base, count, part: { value: 0 }, stretch: 0 };
+    return { group, object, ghost: undefined, seen, code, away, base, count, part: { value: 0 }, stretch: 0 };
   }
 
   /** Where a set goes when sets are moved apart: away from the middle, or along x, which is as good as any. */
@@ -212,11 +250,12 @@ export class Stage implements World {
     geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array([...shaft, ...head]), 3));
     geometry.setAttribute("foot", new THREE.InstancedBufferAttribute(this.scaled(result.points, true), 3));
     geometry.setAttribute("normal_", new THREE.InstancedBufferAttribute(result.normals, 3));
-    const most = result.depths[greatest(result.depths)]! || 1;
+    const depths = result.kind === "contacts" ? result.depths : new Float32Array(result.count).fill(1);
+    const most = depths[greatest(depths)]! || 1;
     geometry.setAttribute(
       "depth",
       new THREE.InstancedBufferAttribute(
-        result.depths.map((d) => d / most),
+        depths.map((d) => d / most),
         1,
       ),
     );
@@ -241,7 +280,8 @@ export class Stage implements World {
     this.shared.ink.value.set(palette.ink);
     this.parts.forEach((part, i) => {
       part.seen.uniforms.plain!.value.set(palette.sets[i % palette.sets.length]!);
-      part.seen.uniforms.struck!.value.set(palette.struck);
+      const { role } = this.scene.sets[i]!;
+      part.seen.uniforms.struck!.value.set(role === "" ? palette.struck : palette.roles[role]);
     });
     for (const { seen } of this.arrows) {
       seen.uniforms.shallow!.value.set(palette.shallow);
@@ -276,8 +316,29 @@ export class Stage implements World {
     this.redrawMarks();
   }
 
-  set hitsOnly(value: boolean) {
-    this.shared.hitsOnly.value = value;
+  /** Which step of a motion is shown: what is hit in another one is not marked. */
+  set step(value: number) {
+    if (value === this.shownStep) return;
+    this.shownStep = value;
+    this.scene.sets.forEach((set, i) => {
+      const attribute = (this.parts[i]!.object as THREE.Mesh).geometry.getAttribute("hit") as THREE.BufferAttribute;
+      const hit = hitsAt(set, value);
+      const copies = attribute.count / Math.max(1, set.count); // vertices of an element
+      for (let e = 0; e < set.count; ++e) attribute.array.fill(hit[e]!, e * copies, (e + 1) * copies);
+      attribute.needsUpdate = true;
+    });
+    this.view.draw();
+  }
+  get step(): number {
+    return this.shownStep;
+  }
+
+  set bodies(value: Bodies) {
+    const { seen, picked, veil } = this.shared;
+    seen.value = value === "solid" ? 0 : 1;
+    picked.value = value === "faint" ? 1 : 0; // a click goes through what is left out
+    veil.value = veils[value];
+    for (const { ghost } of this.parts) if (ghost !== undefined) ghost.visible = value !== "solid";
     this.view.draw();
   }
 
@@ -301,7 +362,7 @@ export class Stage implements World {
   }
 
   showSet(number: number, visible: boolean): void {
-    this.parts[number]!.object.visible = visible;
+    this.parts[number]!.group.visible = visible;
     this.view.draw();
   }
 
@@ -357,6 +418,18 @@ export class Stage implements World {
     return ball.applyMatrix4(this.content.matrixWorld);
   }
 
+  /** The direction, in the world, from which the faces of a mark are seen from their front; none of what has no front. */
+  frontOf(mark: Mark): THREE.Vector3 | undefined {
+    const set = this.scene.sets[mark.set]!;
+    if (set.shape !== "triangles") return undefined;
+    const faces = [...(mark.elements ?? []).map((e) => this.cornersOf(mark.set, e))];
+    if (mark.vertices?.length === 3) faces.push(mark.vertices.map((v) => this.vertex(mark.set, set.vertexAt(v))));
+    const front = new THREE.Vector3();
+    for (const [p, q, r] of faces) front.add(q!.clone().sub(p!).cross(r!.clone().sub(p!)));
+    if (!(front.lengthSq() > 0)) return undefined;
+    return front.normalize().applyQuaternion(this.content.quaternion);
+  }
+
   /** The middle of an element on the screen. */
   screenOf(set: number, element: number): { x: number; y: number; inFront: boolean } {
     const corners = this.cornersOf(set, element);
@@ -393,6 +466,8 @@ export class Stage implements World {
     const screen = this.shared.screen.value.clone();
     this.shared.screen.value.set(size / 2, size / 2);
     this.marks.group.visible = false;
+    const ghosts = this.parts.flatMap(({ ghost }) => (ghost?.visible === true ? [ghost] : []));
+    for (const ghost of ghosts) ghost.visible = false;
     for (const part of drawn) (part.object as THREE.Mesh).material = part.code;
     renderer.setRenderTarget(this.target);
     renderer.setClearColor(0, 0);
@@ -404,6 +479,7 @@ export class Stage implements World {
     renderer.setClearColor(background, 1);
     for (const part of drawn) (part.object as THREE.Mesh).material = part.seen;
     this.marks.group.visible = true;
+    for (const ghost of ghosts) ghost.visible = true;
     this.shared.screen.value.copy(screen);
     camera.clearViewOffset();
     let best = Infinity;
@@ -432,6 +508,7 @@ export class Stage implements World {
   dispose(): void {
     for (const part of [...this.parts, ...this.arrows]) {
       (part.object as THREE.Mesh).geometry.dispose();
+      ((part.ghost as THREE.Mesh | undefined)?.material as THREE.Material | undefined)?.dispose();
       part.seen.dispose();
       part.code.dispose();
     }

@@ -13,7 +13,7 @@
 namespace abut {
 
 /// A file that cannot be read or written, or whose content is malformed or truncated. The message reads
-/// `file: what` (the file as a whole), `file:12: what` (a line of text) or `file: byte 123: what` (binary data).
+/// `path: what` (the file as a whole), `path:12: what` (a line of text) or `path: byte 123: what` (binary data).
 /// @ingroup errors
 class io_error : public error {
 public:

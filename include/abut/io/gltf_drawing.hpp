@@ -10,6 +10,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <type_traits>
 #include <utility>
@@ -17,6 +18,7 @@
 
 #include <abut/arithmetic/vec.hpp>
 #include <abut/shape/check.hpp>
+#include <abut/shape/core.hpp>
 #include <abut/shape/motion.hpp>
 #include <abut/shape/posed.hpp>
 #include <abut/shape/primitive.hpp>
@@ -147,6 +149,60 @@ inline std::vector<triangle<double>> arrow_faces(const vec3<double>& from, const
     return faces;
 }
 
+template <scalar T>
+vec3<double> in_double(const vec3<T>& p) {
+    return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
+}
+
+/// A surface of N / 3 triangles at most; where it has fewer, some of them are a point.
+template <std::size_t N>
+struct drawn_surface {
+    using scalar_type = double;
+    std::array<vec3<double>, N> points;
+};
+
+/// Calls f(corner) for the corners of a shape's core, or of the shape.
+template <class S, class F>
+void for_each_core_corner(const S& s, const F& f) {
+    if constexpr (requires { abut::detail::core_of(s).at; }) {
+        for (const auto& p : abut::detail::core_of(s).at) f(in_double(p));
+    } else if constexpr (requires { abut::detail::points_of(s).at; }) {
+        for (const auto& p : abut::detail::points_of(s).at) f(in_double(p));
+    } else {
+        for (std::size_t i = 0; i < s.count; ++i) f(in_double(s[i]));
+    }
+}
+/// A convex shape: for each corner of a ball the point of the shape that lies farthest in its direction.
+template <class S>
+drawn_surface<960> convex_surface(const S& s, const ball_mesh& ball) {
+    const auto radius = static_cast<double>(abut::detail::radius_around_core(s));
+    std::vector<vec3<double>> farthest;
+    for (std::size_t k = 0; k < ball.positions.size(); k += 3) {
+        const vec3<double> way{ball.positions[k], ball.positions[k + 1], ball.positions[k + 2]};
+        vec3<double> best{};
+        double most = -std::numeric_limits<double>::infinity();
+        for_each_core_corner(s, [&](const vec3<double>& p) {
+            if (dot(p, way) > most) best = p, most = dot(p, way);
+        });
+        farthest.push_back(best + radius * way);
+    }
+    drawn_surface<960> surface{};
+    for (std::size_t k = 0; k < 960; ++k) surface.points[k] = farthest[ball.corners[k]];
+    return surface;
+}
+/// A patch: a fan over its corners, 16 of them at most; a point where it has fewer than three.
+template <class P>
+drawn_surface<42> patch_surface(const P& patch) {
+    drawn_surface<42> surface{};
+    surface.points.fill(in_double(patch.center));
+    const std::size_t corners = std::min<std::size_t>(patch.points.size(), 16);
+    for (std::size_t k = 0; k + 2 < corners; ++k) {
+        const std::array<std::size_t, 3> of{0, k + 1, k + 2};
+        for (std::size_t j = 0; j < 3; ++j) surface.points[3 * k + j] = in_double(patch.points[of[j]].point);
+    }
+    return surface;
+}
+
 /// What is read of an argument of `gltf_scene::add`, after a check.
 template <class Object>
 auto gltf_view(const Object& object) {
@@ -185,11 +241,6 @@ std::uint32_t gltf_corner(const V& v, std::size_t i, std::size_t k) {
     }
 }
 
-template <scalar T>
-vec3<double> in_double(const vec3<T>& p) {
-    return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
-}
-
 /// The points that a shape is drawn by.
 ///@{
 template <scalar T>
@@ -215,6 +266,11 @@ std::array<vec3<T>, 36> gltf_points(const aabb<T>& box) {
 }
 ///@}
 
+template <std::size_t N>
+std::array<vec3<double>, N> gltf_points(const drawn_surface<N>& surface) {
+    return surface.points;
+}
+
 /// How sets of a kind of shape are called and drawn.
 template <class S>
 struct gltf_kind;
@@ -226,6 +282,11 @@ struct gltf_kind<triangle<T>> {
 template <scalar T>
 struct gltf_kind<aabb<T>> {
     static constexpr const char* name = "boxes";
+    static constexpr int mode = 4;
+};
+template <std::size_t N>
+struct gltf_kind<drawn_surface<N>> {
+    static constexpr const char* name = "surfaces";
     static constexpr int mode = 4;
 };
 template <scalar T>

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <ranges>
 #include <span>
 #include <string>
@@ -63,6 +64,25 @@ concept contact_like = id_pair<C> && requires(const C& c) {
     { c.normal.x } -> std::convertible_to<double>;
 };
 
+/// A hit of a sweep: `abut::sweep_hit`, or any type with its members.
+template <class H>
+concept sweep_hit_like = requires(const H& h) {
+    { h.id } -> std::convertible_to<std::uint32_t>;
+    { h.t } -> std::convertible_to<double>;
+    { h.point.x } -> std::convertible_to<double>;
+    { h.normal.x } -> std::convertible_to<double>;
+};
+
+/// A patch: `abut::contact_patch`, or any type with its members.
+template <class P>
+concept patch_like = requires(const P& p, std::size_t i) {
+    requires curve_like<std::remove_cvref_t<decltype(p.curves[i])>>;
+    { p.points[i].point.x } -> std::convertible_to<double>;
+    { p.center.x } -> std::convertible_to<double>;
+    { p.area } -> std::convertible_to<double>;
+    { p.depth } -> std::convertible_to<double>;
+};
+
 /// An impact: `abut::impact`, or any type with its members.
 template <class I>
 concept impact_like = requires(const I& i) {
@@ -75,7 +95,8 @@ concept impact_like = requires(const I& i) {
 ///
 /// @par Memory
 /// What is added is copied, in the form of the file: 133 bytes a triangle, 36 more for each further frame of a motion, 1.3
-/// kB a box, 48 bytes a segment, 24 a point, 37 a sphere (some 200 bytes of text where they are 256 or fewer), 84 a contact.
+/// kB a box, 48 bytes a segment, 24 a point, 37 a sphere (some 200 bytes of text where they are 256 or fewer), 84 a contact, 54
+/// kB a shape that sweeps, 2 kB a patch.
 /// A file of binary glTF holds 4 GiB.
 ///
 /// @par Errors
@@ -136,7 +157,76 @@ public:
     gltf_set add_curves(const std::string& name, const Curves& curves) {
         const auto lines = detail::lines_of(curves);
         const std::vector<std::uint8_t> all(lines.segments.size(), 1);
-        return add(name, shapes(lines.segments), {.hit = all});
+        const gltf_set set = add(name, shapes(lines.segments), {.hit = all});
+        say_of_last({{"role", "\"curves\""}});
+        return set;
+    }
+
+    /// Adds patches, as `contact_patches` makes them: for each its corners as a surface in its plane, with its area and depth; and
+    /// as a set of segments of its own, `name` with ": borders" behind, the curves of all. Returns the set of surfaces, all `hit`.
+    template <std::ranges::input_range Patches>
+        requires patch_like<std::ranges::range_value_t<Patches>>
+    gltf_set add_patches(const std::string& name, const Patches& patches) {
+        std::vector<detail::drawn_surface<42>> surfaces;
+        std::vector<float> areas, depths;
+        std::vector<std::remove_cvref_t<decltype((*std::ranges::begin(patches)).curves[0])>> borders;
+        for (const auto& patch : patches) {
+            surfaces.push_back(detail::patch_surface(patch));
+            areas.push_back(static_cast<float>(patch.area));
+            depths.push_back(static_cast<float>(patch.depth));
+            borders.insert(borders.end(), patch.curves.begin(), patch.curves.end());
+        }
+        const std::vector<std::uint8_t> all(surfaces.size(), 1);
+        const gltf_set set = add_surfaces(name, surfaces, surfaces, {.hit = all});
+        say_of_last({{"role", "\"patches\""},
+                     {"numbers", all.empty() ? ""
+                                             : detail::json_object({{"area", add_values(areas)}, {"depth", add_values(depths)}})}});
+        add_curves(name + ": borders", borders);
+        return set;
+    }
+
+    /// Adds what `sweep(policy, touched, shapes, ways)` found: the shapes, which go to where they touch something, or to the end
+    /// of their ways, and a page plays that; as segments, `name` with ": ways" behind, their ways, those parts `hit` that
+    /// they go; and the hits as results between the shapes, by their rows, and `touched`. Shapes are spheres, capsules, triangles, segments,
+    /// points, boxes, oriented boxes or hulls, drawn as 320 triangles each. Throws `error` unless shapes, ways and hits are
+    /// equally many.
+    template <class Object, class Ways, std::ranges::random_access_range Hits>
+        requires sweep_hit_like<std::ranges::range_value_t<Hits>>
+    gltf_set add_sweep(const std::string& name, const Object& movers, const Ways& ways, const Hits& hits, gltf_set touched) {
+        const auto view = detail::gltf_view(movers);
+        const auto way_of = detail::gltf_view(ways);
+        const std::size_t count = view.size();
+        if (way_of.size() != count || std::ranges::size(hits) != count) {
+            detail::refuse_scene("add_sweep", "expected as many ways and hits as shapes, " + std::to_string(count) + ", found " +
+                                                  std::to_string(way_of.size()) + " and " + std::to_string(std::ranges::size(hits)));
+        }
+        const detail::ball_mesh ball(2);
+        std::vector<detail::drawn_surface<960>> start, stop;
+        std::vector<segment<double>> parts;
+        std::vector<std::uint8_t> touches(count), gone;
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto& hit = hits[i];
+            touches[i] = hit.t <= 1 ? 1 : 0;
+            const double t = touches[i] != 0 ? static_cast<double>(hit.t) : 1;
+            const vec3<double> way = detail::in_double(way_of[i]);
+            start.push_back(detail::convex_surface(view[i], ball));
+            stop.push_back(start.back());
+            for (auto& p : stop.back().points) p = p + t * way;
+            const auto box = bounds(view[i]);
+            const vec3<double> middle = 0.5 * (detail::in_double(box.lower) + detail::in_double(box.upper));
+            parts.push_back({middle, middle + t * way});
+            parts.push_back({middle + t * way, middle + way});
+            gone.insert(gone.end(), {1, 0});
+        }
+        const gltf_set set = add_surfaces(name, start, stop, {.hit = touches});
+        add(name + ": ways", shapes(parts), {.hit = gone});
+        say_of_last({{"role", "\"ways\""}});
+        placed_rows rows(canvas_);
+        for (std::size_t i = 0; i < count; ++i) {
+            if (touches[i] != 0) rows.add(i, hits[i].id, hits[i].point, hits[i].normal, hits[i].t);
+        }
+        add_rows("sweeps", "times", set, touched, rows, {});
+        return set;
     }
 
     /// Adds an arrow from a point, as long as a move: the one that `penetration` found, say. It is a set of 24 triangles,
@@ -148,7 +238,10 @@ public:
         }
         const auto faces = detail::arrow_faces(from, by);
         const std::vector<std::uint8_t> all(faces.size(), 1);
-        return add(name, shapes(faces), {.hit = all});
+        const gltf_set set = add(name, shapes(faces), {.hit = all});
+        say_of_last({{"role", "\"move\""},
+                     {"move", detail::json_list(detail::json_number(by.x), detail::json_number(by.y), detail::json_number(by.z))}});
+        return set;
     }
 
     /// Adds pairs of ids of shapes of two sets, or of one (`b` the same as `a`).
@@ -170,29 +263,9 @@ public:
     template <std::ranges::input_range Contacts>
         requires contact_like<std::ranges::range_value_t<Contacts>>
     void add_contacts(gltf_set a, gltf_set b, const Contacts& contacts, const gltf_result_options& options = {}) {
-        std::vector<std::uint32_t> of_a, of_b;
-        std::vector<float> points, normals, depths, lines;
-        const float length = canvas_.line_length();
-        for (const auto& c : contacts) {
-            of_a.push_back(static_cast<std::uint32_t>(c.a));
-            of_b.push_back(static_cast<std::uint32_t>(c.b));
-            const std::array<float, 3> p = canvas_.rounded(detail::in_double(c.point)),
-                                       n = canvas_.in_float(detail::in_double(c.normal));
-            points.insert(points.end(), p.begin(), p.end());
-            normals.insert(normals.end(), n.begin(), n.end());
-            depths.push_back(static_cast<float>(c.depth));
-            lines.insert(lines.end(), p.begin(), p.end());
-            for (std::size_t k = 0; k < 3; ++k) lines.push_back(p[k] + length * n[k]);
-        }
-        if (of_a.empty()) return add_result("contacts", a, b, 0, {}, {}, options);
-        const std::string node = detail::json_number(canvas_.add_lines(lines));
-        add_result("contacts", a, b, of_a.size(),
-                   detail::json_object({{"a_ids", add_values(of_a)},
-                                        {"b_ids", add_values(of_b)},
-                                        {"points", add_values(points, 3)},
-                                        {"normals", add_values(normals, 3)},
-                                        {"depths", add_values(depths)}}),
-                   {member{"node", node}}, options);
+        placed_rows rows(canvas_);
+        for (const auto& c : contacts) rows.add(c.a, c.b, c.point, c.normal, c.depth);
+        add_rows("contacts", "depths", a, b, rows, options);
     }
 
     /// Adds impacts of two meshes in motion, or of one. Times are rounded down to float, so that none is later than it was;
@@ -217,6 +290,15 @@ public:
                    detail::json_object(
                        {{"kinds", add_values(kinds)}, {"vertices", add_values(vertices)}, {"times", add_values(times)}}),
                    {member{"times_exact", exact.size() <= most_exact_times ? detail::json_array(exact) : ""}}, options);
+    }
+
+    /// Adds the part of a step that `safe_step` says is free, of two meshes in motion or of one: a page marks it on its clock.
+    /// Throws `error` unless it is from 0 to 1.
+    void add_safe_step(gltf_set a, gltf_set b, double part, const gltf_result_options& options = {}) {
+        if (!(part >= 0) || part > 1) {
+            detail::refuse_scene("add_safe_step", "expected a part from 0 to 1, found " + abut::detail::shortest(part));
+        }
+        add_result("safe_step", a, b, 0, {}, {member{"part", detail::json_number(part)}}, options);
     }
 
     /// Adds a sentence for the reader of the file, such as what was left out of it.
@@ -260,6 +342,57 @@ private:
         return add_set(name, kind::name, node, count, options,
                        {member{"moves", frames > 1 ? "true" : "false"},
                         member{"frames", frames > 2 ? detail::json_number(frames) : ""}});
+    }
+    /// Surfaces, and where they are at the end, if that is elsewhere.
+    template <std::size_t N>
+    gltf_set add_surfaces(const std::string& name, const std::vector<detail::drawn_surface<N>>& start,
+                          const std::vector<detail::drawn_surface<N>>& stop, const gltf_set_options& options) {
+        const auto at = [&](std::size_t frame, std::size_t i) { return frame == 0 ? start[i] : stop[i]; };
+        const auto no_corner = [](std::size_t, std::size_t) { return 0u; };
+        return add_drawn(name, start.size(), &start == &stop ? 1 : 2, at, no_corner, options);
+    }
+    /// More members of the set that was added last.
+    void say_of_last(std::initializer_list<member> members) {
+        const std::string more = detail::json_object(members);
+        if (more.size() == 2) return;
+        sets_.back().back() = ',';
+        sets_.back() += more.substr(1);
+    }
+
+    /// Results that have a place each: ids, points, normals, one number, and a line along the normal.
+    class placed_rows {
+    public:
+        explicit placed_rows(const detail::gltf_canvas& canvas) : canvas_(canvas), length_(canvas.line_length()) {}
+        template <class A, class B, class P, class N>
+        void add(A a, B b, const vec3<P>& point, const vec3<P>& normal, N number) {
+            of_a.push_back(static_cast<std::uint32_t>(a));
+            of_b.push_back(static_cast<std::uint32_t>(b));
+            const std::array<float, 3> p = canvas_.rounded(detail::in_double(point)),
+                                       n = canvas_.in_float(detail::in_double(normal));
+            points.insert(points.end(), p.begin(), p.end());
+            normals.insert(normals.end(), n.begin(), n.end());
+            numbers.push_back(static_cast<float>(number));
+            lines.insert(lines.end(), p.begin(), p.end());
+            for (std::size_t k = 0; k < 3; ++k) lines.push_back(p[k] + length_ * n[k]);
+        }
+        std::vector<std::uint32_t> of_a, of_b;
+        std::vector<float> points, normals, numbers, lines;
+
+    private:
+        const detail::gltf_canvas& canvas_;
+        float length_;
+    };
+    void add_rows(const char* kind, const char* number, gltf_set a, gltf_set b, const placed_rows& rows,
+                  const gltf_result_options& options) {
+        if (rows.of_a.empty()) return add_result(kind, a, b, 0, {}, {}, options);
+        const std::string node = detail::json_number(canvas_.add_lines(rows.lines));
+        add_result(kind, a, b, rows.of_a.size(),
+                   detail::json_object({{"a_ids", add_values(rows.of_a)},
+                                        {"b_ids", add_values(rows.of_b)},
+                                        {"points", add_values(rows.points, 3)},
+                                        {"normals", add_values(rows.normals, 3)},
+                                        {number, add_values(rows.numbers)}}),
+                   {member{"node", node}}, options);
     }
     template <class V>
     std::string add_values(const std::vector<V>& values, std::size_t components = 1) {

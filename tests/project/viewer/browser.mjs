@@ -17,7 +17,7 @@ export const html = () => readFileSync(join(folder, "viewer.html"), "utf8");
 export const viewerUrl = pathToFileURL(join(folder, "viewer.html")).href;
 
 /** A page of the viewer, ready. `problems` gathers what it says on the console, and what it asks of the network. */
-export async function openPage(browser, { url = viewerUrl, size = [900, 600], scheme = "light", serve } = {}) {
+export async function openPage(browser, { url = viewerUrl, size = [900, 600], scheme = "light", serve, ready = "html[data-ready]" } = {}) {
   const page = await browser.newPage({
     viewport: { width: size[0], height: size[1] },
     colorScheme: scheme,
@@ -35,7 +35,7 @@ export async function openPage(browser, { url = viewerUrl, size = [900, 600], sc
   });
   if (serve !== undefined) await page.route("http://viewer.test/**", serve);
   await page.goto(url);
-  await page.waitForSelector("html[data-ready]");
+  await page.waitForSelector(ready);
   return page;
 }
 

@@ -68,7 +68,8 @@ class Binary {
 const halves = (ids) => ids.flatMap((id) => [id % 65536, Math.floor(id / 65536)]);
 
 /**
- * sets: [{ name, kind, vertices, faces, ids, frames }] for triangles (`frames`: the vertices at times 1, 2, ...), [{ kind: "spheres", spheres,
+ * sets: [{ name, kind, vertices, faces, ids, frames, role, move, numbers }] for triangles (`frames`: the vertices at times 1, 2, ...), for
+ * segments, whose faces have two corners, and for surfaces, whose faces have as many as their triangles need; [{ kind: "spheres", spheres,
  * ids, as }] for spheres; results as in extras, with plain lists in place of accessors.
  */
 export function writeScene({ sets, results, edit }) {
@@ -83,17 +84,27 @@ export function writeScene({ sets, results, edit }) {
         5126,
         "VEC3",
       ),
-      _ID: out.accessor(halves(ids.flatMap((id) => [id, id, id])), 5123, "VEC2"),
-      _CORNER: out.accessor(halves(corners), 5123, "VEC2"),
+      _ID: out.accessor(halves(ids.flatMap((id, i) => set.faces[i].map(() => id))), 5123, "VEC2"),
+      ...(set.kind === "triangles" && { _CORNER: out.accessor(halves(corners), 5123, "VEC2") }),
     };
-    const primitive = { attributes, mode: 4 };
+    const primitive = { attributes, mode: set.kind === "segments" ? 1 : 4 };
     if (set.frames) {
       const deltas = (frame) => corners.flatMap((v) => frame[v].map((x, k) => x - set.vertices[v][k]));
       primitive.targets = set.frames.map((frame) => ({ POSITION: out.accessor(deltas(frame), 5126, "VEC3") }));
     }
     out.json.meshes.push({ primitives: [primitive] });
     const node = out.node({ name: set.name, mesh: out.json.meshes.length - 1 });
-    return { name: set.name, kind: "triangles", node, count: set.faces.length, moves: set.frames !== undefined };
+    const numbers = Object.entries(set.numbers ?? {}).map(([name, values]) => [name, out.accessor(values, 5126, "SCALAR")]);
+    return {
+      name: set.name,
+      kind: set.kind,
+      node,
+      count: set.faces.length,
+      moves: set.frames !== undefined,
+      ...(set.role && { role: set.role, hit: out.accessor(set.hit ?? set.faces.map(() => 1), 5121, "SCALAR") }),
+      ...(set.move && { move: set.move }),
+      ...(numbers.length > 0 && { numbers: Object.fromEntries(numbers) }),
+    };
   });
   const types = {
     a_ids: [5125, "SCALAR"],
@@ -105,10 +116,10 @@ export function writeScene({ sets, results, edit }) {
     vertices: [5125, "SCALAR"],
     times: [5126, "SCALAR"],
   };
-  const written = results.map(({ kind, a, b, count, times_exact, step, of, ...lists }) => {
+  const written = results.map(({ kind, a, b, count, times_exact, step, of, part, ...lists }) => {
     const accessors = {};
     for (const [name, values] of Object.entries(lists)) accessors[name] = out.accessor(values, ...types[name]);
-    return { kind, a, b, count, accessors, ...(times_exact && { times_exact }), ...(step && { step }), ...(of && { of }) };
+    return { kind, a, b, count, accessors, ...(times_exact && { times_exact }), ...(step && { step }), ...(of && { of }), ...(part !== undefined && { part }) };
   });
   out.json.extras = { abut: { version: 1, sets: described, results: written } };
   return out.write(edit);

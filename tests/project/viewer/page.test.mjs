@@ -5,6 +5,7 @@
 
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
+import { execFileSync } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
@@ -12,7 +13,7 @@ import { folder, html, openPage, openScene, settle, startBrowser, text } from ".
 import { torus, writeScene } from "./glb.mjs";
 import { contactsOf, loadPredicate } from "./predicate.mjs";
 import { firstMet } from "./rays.mjs";
-import { frames, hostile, motion, small } from "./scenes.mjs";
+import { findings, frames, hostile, motion, small } from "./scenes.mjs";
 
 let browser, page, predicate, meshes, contacts, bytes;
 
@@ -71,6 +72,79 @@ test("the deepest contact: one click from the scene to its faces and its numbers
   const middle = await viewer("v.view.toScreen(v.scenes.stage.pointOfContact(0, argument))", deepest);
   const box = await page.locator("#canvas").boundingBox();
   assert.ok(Math.hypot(middle.x - box.width / 2, middle.y - box.height / 2) < 3, "it is in the middle of the picture");
+});
+
+/** Red, green and blue of a pixel of the picture. */
+const pixel = (at) =>
+  viewer(
+    `(() => { v.view.frame(); const gl = v.view.renderer.getContext(); const out = new Uint8Array(4), k = v.view.canvas.width / v.view.width;
+      gl.readPixels(Math.floor(argument.x * k), v.view.canvas.height - 1 - Math.floor(argument.y * k), 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, out); return [...out.slice(0, 3)]; })()`,
+    at,
+  );
+const isOrange = ([r, g, b]) => r > 150 && r > 1.4 * g && g > b;
+const apart = (p, q) => Math.max(...p.map((x, i) => Math.abs(x - q[i])));
+
+test("first sight: the deepest contact is in view with its numbers, and bodies are ghosts", async () => {
+  const deepest = contacts.depths.indexOf(Math.max(...contacts.depths));
+  await openScene(page, writeScene({ sets: [meshes[1], meshes[0]], results: [] }), "none.glb");
+  assert.equal(await page.locator("#solid").isChecked(), true, "where nothing touches there is nothing to see through to");
+  assert.equal(await page.locator("#details").isVisible(), false);
+  await openScene(page, bytes, "rings.glb");
+  assert.deepEqual(await viewer("v.scenes.selection"), { kind: "row", result: 0, row: deepest });
+  assert.match(await text(page, "#contact-numbers"), /depth/);
+  assert.match(await text(page, "#labels"), / deep/);
+  const at = await viewer("v.view.toScreen(v.scenes.stage.pointOfContact(0, argument))", deepest);
+  const box = await page.locator("#canvas").boundingBox();
+  const tools = await page.locator("#scene-tools").boundingBox();
+  assert.ok(at.x > 0 && at.x < box.width && at.y > 0 && box.y + at.y < tools.y, `${at.x}, ${at.y}`);
+  const corner = await viewer("v.scenes.stage.screenOf(0, 0)");
+  assert.ok(corner.x > 0 && corner.x < box.width && corner.y > 0 && corner.y < box.height, "and bodies around it");
+
+  await page.keyboard.press("Escape");
+  await page.keyboard.press("f");
+  await settle(page);
+  const [ground, ...drawn] = [{ x: 3, y: 3 }];
+  for (let element = 0; element < meshes[0].ids.length; ++element) {
+    const place = await viewer("v.scenes.stage.screenOf(0, argument)", element);
+    const met = await firstMet(page, place, meshes);
+    const isHit = contacts.a_ids.includes(meshes[0].ids[element]);
+    if (met?.clear && met.set === 0 && met.element === element && drawn[Number(isHit)] === undefined) drawn[Number(isHit)] = place;
+  }
+  const [plain, hit] = drawn;
+  await page.locator("#arrows").fill("0");
+  const background = await pixel(ground);
+  const ghost = await pixel(plain);
+  assert.ok(isOrange(await pixel(hit)) && !isOrange(ghost), "what is hit stands out");
+  await page.keyboard.press("s");
+  const solid = await pixel(plain);
+  assert.ok(apart(solid, background) > apart(ghost, background) + 10, "a ghost is fainter");
+  assert.ok(isOrange(await pixel(hit)));
+  await page.keyboard.press("s");
+  assert.deepEqual(await pixel(plain), ghost);
+  await page.keyboard.press("h");
+  const faint = await pixel(plain);
+  assert.ok(apart(faint, background) > 2 && apart(faint, background) < apart(ghost, background), "hits only keeps some of it");
+  assert.ok(isOrange(await pixel(hit)));
+  await page.keyboard.press("h");
+  await page.locator("#arrows").fill("0.4");
+  const looks = await page.evaluate(() =>
+    [".headline .go", ".headline"].map((which) => getComputedStyle(document.querySelector(which)).backgroundColor),
+  );
+  assert.notEqual(looks[0], looks[1], "the card's action looks like a button");
+});
+
+test("after a jump the faces are seen from their front", async () => {
+  for (let row = 0; row < contacts.count; row += 3) {
+    await viewer("v.scenes.select({ kind: 'row', result: 0, row: argument }, true)", row);
+    const eye = await viewer("v.view.camera.position.clone().sub(v.scenes.stage.pointOfContact(0, argument)).normalize().toArray()", row);
+    const facing = [corners(0, contacts.a_ids[row]), corners(1, contacts.b_ids[row])].map((c) => {
+      const [u, w] = [0, 1].map((k) => [0, 1, 2].map((i) => c[3 * (k + 1) + i] - c[i]));
+      const n = [u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]];
+      return n.reduce((sum, x, i) => sum + x * eye[i], 0) / Math.hypot(...n);
+    });
+    assert.ok(facing[0] > 0.3, `row ${row}: ${facing}`);
+  }
+  await page.keyboard.press("Escape");
 });
 
 test("picking gives the face that the ray meets first, and its partners", async () => {
@@ -256,9 +330,10 @@ test("dark and light, help, window size, names for all controls", async () => {
         document.documentElement.scrollWidth <= innerWidth,
         Math.abs(canvas.clientWidth - stage.clientWidth) < 2,
         canvas.clientHeight > 200,
+        [...document.querySelectorAll("#scene-tools *, #side *")].every((e) => e.getBoundingClientRect().right <= innerWidth + 1),
       ];
     });
-    assert.deepEqual(fits, [true, true, true], `${width} x ${height}`);
+    assert.deepEqual(fits, [true, true, true, true], `${width} x ${height}`);
   }
   const nameless = await page.evaluate(() =>
     [...document.querySelectorAll("button, input:not([type=file]), select, [role=grid], canvas[tabindex]")]
@@ -314,7 +389,8 @@ test("several frames: the clock, the step of an impact, an origin", async () => 
   await page.getByRole("button", { name: /^First impact: t = 0.25/ }).click();
   assert.equal(await viewer("v.scenes.stage.time"), 2.25);
   const details = await text(page, "#details");
-  assert.match(details, /0.25 of the step from frame 2/);
+  assert.match(details, /0.25 of step 2/);
+  assert.equal(await text(page, "#time-value"), "step 2 of 3, t = 0.25");
   assert.match(details, /vertex 0\s+1000001.5\s+1\s+0\n/);
   assert.match(await text(page, "#row-count"), /^1 of 9 rows/);
   assert.match(await text(page, "#summary"), /nine were found/);
@@ -328,6 +404,92 @@ test("several frames: the clock, the step of an impact, an origin", async () => 
   await page.locator("#time").fill("2.9");
   const at = await place();
   assert.deepEqual(await viewer("v.scenes.stage.pick(argument.x, argument.y)", at), { set: 0, element: 0 });
+});
+
+test("what is hit in a step of a motion is marked in that step alone", async () => {
+  const scene = frames();
+  scene.sets[0].frames[2] = scene.sets[0].frames[1]; // at rest: the face stays where it is
+  scene.sets[0].vertices.push(...[0, 1, 2].map((v) => [3 + (v === 1), 3, 4 + (v === 2)]));
+  for (const frame of scene.sets[0].frames) frame.push(...scene.sets[0].vertices.slice(3));
+  scene.sets[0].faces.push([3, 4, 5]);
+  const other = { ...scene.results[0], step: 1, vertices: [3, 0, 1, 2], times: [1] };
+  scene.results.push(other);
+  await openScene(page, writeScene(scene), "steps.glb");
+  assert.equal(await text(page, "#time-value"), "step 1 of 3, t = 1", "the first of both, at the end of its step");
+  const hits = () => viewer("[0, 3].map((i) => v.scenes.stage.parts[0].object.geometry.getAttribute('hit').array[i])");
+  assert.deepEqual(await hits(), [0, 1]);
+  for (const [time, step, expected] of [
+    ["0.5", "step 0 of 3, t = 0.500", [0, 0]],
+    ["1.5", "step 1 of 3, t = 0.500", [0, 1]],
+    ["2", "step 2 of 3, t = 0.000", [1, 0]],
+    ["3", "step 2 of 3, t = 1.000", [1, 0]],
+  ]) {
+    await page.locator("#time").fill(time);
+    assert.equal(await text(page, "#time-value"), step);
+    assert.deepEqual(await hits(), expected, step);
+  }
+  assert.deepEqual(await page.locator("#summary .sets td:last-child").allInnerTexts(), ["2 hit", "1 hit"]);
+  const widths = await page.evaluate(() => {
+    const select = document.getElementById("which-result");
+    const pen = document.createElement("canvas").getContext("2d");
+    pen.font = getComputedStyle(select).font;
+    return [select.clientWidth - 36, ...[...select.options].map((o) => pen.measureText(o.text).width)];
+  });
+  assert.ok(Math.max(...widths.slice(1)) < widths[0], `the choice of a list is not cut off: ${widths}`);
+});
+
+test("curves, patches, a move, what sweeps and a safe step", async () => {
+  await openScene(page, writeScene(findings()), "findings.glb");
+  const time = () => viewer("v.scenes.stage.time");
+  assert.equal(await time(), 1, "what sweeps has stopped where it touches");
+  assert.match(await text(page, "#details"), /of its way\s+0.5\s+point\s+1\s+1\s+-1\s+normal\s+0\s+0\s+1/);
+  assert.match(await text(page, "#labels"), /after 0.5 of its way/);
+  const cards = await page.locator(".headline").allInnerTexts();
+  assert.deepEqual(
+    cards.map((card) => card.split("\n").filter((line) => line !== "")),
+    [
+      ["First touch: after 0.5 of its way", "shape 0 of movers touches face 1 of floor", "Go there →"],
+      ["patches: 0.125 deep", "deepest of 2 patches, area 4, depth 0.125", "Go there →"],
+      ["Safe step: 0.375", "of the way is free", "Show it →"],
+      ["way out: 3 long", "a move by 0, 0, 3", "Play it ▶"],
+    ],
+  );
+  assert.deepEqual(await page.locator("#which-result option").allInnerTexts(), ["Touches: movers and floor (1)"]);
+  assert.match(await text(page, "#list"), /of its way[^]*0\s+0.5\s+0\s+1/);
+
+  await page.getByRole("button", { name: /^Safe step/ }).click();
+  assert.equal(await time(), 0.375);
+  const green = await page.evaluate(() => {
+    const canvas = document.getElementById("time-marks");
+    const copy = Object.assign(document.createElement("canvas"), { width: canvas.width, height: canvas.height }).getContext("2d");
+    copy.drawImage(canvas, 0, 0); // of the page's own it is read a second time, of which the browser complains
+    const { data } = copy.getImageData(0, canvas.height - 2, canvas.width, 1);
+    return [0.01, 0.36, 0.39, 0.9].map((part) => data[4 * Math.floor(part * canvas.width) + 3] > 0);
+  });
+  assert.deepEqual(green, [true, true, false, false], "the free part is marked on the clock");
+
+  await page.getByRole("button", { name: /^patches/ }).click();
+  assert.deepEqual(await viewer("v.scenes.selection"), { kind: "element", set: 3, element: 0 });
+  assert.match(await text(page, "#details"), /patch 0 of patches[^]*area\s+4\s+depth\s+0.125/);
+
+  // A curve is wider than a line, in its colour, and can be picked beside its middle.
+  await page.keyboard.press("Escape");
+  await page.keyboard.press("f");
+  await settle(page);
+  for (const name of ["lid", "patches", "movers", "way out", "movers: ways", "floor"]) await page.getByLabel(`Show ${name}`, { exact: true }).click();
+  const ends = await viewer("[0, 1].map((e) => v.view.toScreen(v.scenes.stage.vertex(2, 2 * 1 + e).applyMatrix4(v.scenes.stage.content.matrixWorld)))");
+  const middle = { x: (ends[0].x + ends[1].x) / 2, y: (ends[0].y + ends[1].y) / 2 };
+  const length = Math.hypot(ends[1].x - ends[0].x, ends[1].y - ends[0].y);
+  const aside = [(ends[0].y - ends[1].y) / length, (ends[1].x - ends[0].x) / length];
+  const beside = (by) => ({ x: middle.x + by * aside[0], y: middle.y + by * aside[1] });
+  const ground = await pixel({ x: 3, y: 3 });
+  const isDrawn = async (by) => apart(await pixel(beside(by)), ground) > 60;
+  assert.deepEqual([await isDrawn(-1), await isDrawn(1), await isDrawn(4), await isDrawn(-4)], [true, true, false, false]);
+  assert.deepEqual(await viewer("v.scenes.stage.pick(argument.x, argument.y)", middle), { set: 2, element: 1 });
+
+  await page.getByRole("button", { name: /^way out/ }).click();
+  await page.waitForFunction(() => window.abutViewer.scenes.stage.time > 0 && window.abutViewer.scenes.stage.time < 0.3);
+  await page.getByRole("button", { name: "Play the motion" }).click();
 });
 
 test("files come by drop, by ?scene=, and in the page", async () => {
@@ -371,6 +533,46 @@ test("files come by drop, by ?scene=, and in the page", async () => {
     assert.deepEqual(embedded.problems, []);
     await embedded.close();
     (await import("node:fs")).unlinkSync(name);
+  }
+});
+
+test("the gallery: one page leads to all scenes", { skip: !process.env.ABUT_GALLERY }, async () => {
+  const at = process.env.ABUT_GALLERY;
+  const tool = (name, ...words) => execFileSync(process.execPath, [new URL(`../../../docs/viewer/${name}.mjs`, import.meta.url).pathname, ...words]);
+  const says = {
+    rings: [/Pairs that touch: \d+[^]*the way out: 1.0\d* long/, "curves"],
+    patches: [/patches: 0.15 deep[^]*of 4 patches, area 0.16/, "patches"],
+    sweeps: [/First touch: after 0.4 of its way[^]*shape 1 of movers touches/, "ways"],
+    safe_step: [/Safe step: 0.4166666666/, ""],
+  };
+  const names = Object.keys(says);
+  for (const name of names) tool("embed", join(folder, "viewer.html"), join(at, `${name}.glb`), join(at, `${name}.html`));
+  tool("gallery", at, ...names, "<b>");
+  for (const [width, scheme] of [
+    [1280, "light"],
+    [400, "dark"],
+  ]) {
+    const gallery = await browser.newPage({ viewport: { width, height: 800 }, colorScheme: scheme });
+    await gallery.goto(pathToFileURL(join(at, "index.html")).href);
+    assert.deepEqual(await gallery.locator("a").evaluateAll((all) => all.map((a) => a.getAttribute("href"))), [
+      ...names.map((name) => `${name}.html`),
+      "%3Cb%3E.html",
+    ]);
+    assert.match(await gallery.locator("li").last().innerText(), /^<b>/, "a name is no markup");
+    assert.ok(await gallery.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+    await gallery.close();
+  }
+  for (let i = 0; i < names.length; ++i) {
+    const opened = await openPage(browser, { url: pathToFileURL(join(at, "index.html")).href, ready: "a" });
+    for (let k = 0; k <= i; ++k) await opened.keyboard.press("Tab");
+    await opened.keyboard.press("Enter");
+    await opened.waitForSelector("html[data-ready]");
+    const [card, role] = says[names[i]];
+    assert.match(await text(opened, "#summary"), card);
+    assert.ok(await opened.evaluate((role) => window.abutViewer.scenes.scene.sets.some((set) => set.role === role), role));
+    assert.equal(await opened.locator("#message").isVisible(), false);
+    assert.deepEqual(opened.problems, []);
+    await opened.close();
   }
 });
 

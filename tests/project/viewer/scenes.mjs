@@ -124,6 +124,66 @@ export function frames() {
   return scene;
 }
 
+/** What solids and sweeps leave behind: a curve, a patch with numbers, a move, a sweep with its way, and a safe step. */
+export function findings() {
+  const square = [
+    [0, 0, 0],
+    [2, 0, 0],
+    [2, 2, 0],
+    [0, 2, 0],
+  ];
+  const floor = square.map(([x, y, z]) => [4 * x - 3, 4 * y - 3, z - 1]);
+  const raised = (by) => square.map(([x, y, z]) => [x, y, z + by]);
+  return {
+    sets: [
+      { name: "floor", kind: "triangles", vertices: floor, faces: [[0, 1, 2], [0, 2, 3]] },
+      { name: "lid", kind: "triangles", vertices: raised(0), frames: [raised(3)], faces: [[0, 1, 2], [0, 2, 3]] },
+      { name: "curve", kind: "segments", role: "curves", vertices: square, faces: [[0, 1], [1, 2], [2, 3], [3, 0]] },
+      {
+        name: "patches",
+        kind: "surfaces",
+        role: "patches",
+        vertices: [...raised(0.5), [0, 0, 2]],
+        faces: [
+          [0, 1, 2, 0, 2, 3],
+          [4, 4, 4, 4, 4, 4],
+        ],
+        numbers: { area: [4, 0], depth: [0.125, 0] },
+      },
+      { name: "way out", kind: "triangles", role: "move", move: [0, 0, 3], vertices: raised(1), faces: [[0, 1, 2]] },
+      {
+        name: "movers",
+        kind: "surfaces",
+        vertices: raised(2),
+        frames: [raised(1)],
+        faces: [[0, 1, 2, 0, 2, 3]],
+      },
+      {
+        name: "movers: ways",
+        kind: "segments",
+        role: "ways",
+        hit: [1, 0],
+        vertices: [[1, 1, 2], [1, 1, 1], [1, 1, 0]],
+        faces: [[0, 1], [1, 2]],
+      },
+    ],
+    results: [
+      {
+        kind: "sweeps",
+        a: 5,
+        b: 0,
+        count: 1,
+        a_ids: [0],
+        b_ids: [1],
+        points: [1, 1, -1],
+        normals: [0, 0, 1],
+        times: [0.5],
+      },
+      { kind: "safe_step", a: 1, b: 0, count: 0, part: 0.375 },
+    ],
+  };
+}
+
 export function hostile() {
   const edited = (edit, scene = small) => writeScene({ ...scene(), edit });
   const good = writeScene(small());
@@ -216,6 +276,32 @@ export function hostile() {
       name: "a kind of nothing",
       bytes: edited((j) => (extras(j).sets[0].kind = "teapots")),
       says: /kind: expected one of triangles/,
+    },
+    {
+      name: "a role of nothing",
+      bytes: edited((j) => (extras(j).sets[2].role = "hat"), findings),
+      says: /sets 2: role: expected one of curves, patches, move, ways, got "hat"/,
+    },
+    {
+      name: "a number for too few",
+      bytes: writeScene((({ sets, results }) => ((sets[3].numbers.depth = [1]), { sets, results }))(findings())),
+      says: /sets 3: numbers: depth: expected 2 elements, got 1/,
+    },
+    {
+      name: "a move of two numbers",
+      bytes: edited((j) => (extras(j).sets[4].move = [1, 2]), findings),
+      says: /sets 4: move: expected 3 numbers/,
+    },
+    {
+      name: "a part above 1",
+      bytes: edited((j) => (extras(j).results[1].part = 1.5), findings),
+      says: /results 1: part: 1.5 is not in \[0, 1\]/,
+    },
+    { name: "no part", bytes: edited((j) => delete extras(j).results[1].part, findings), says: /results 1: part: expected 1 numbers/ },
+    {
+      name: "a sweep that ends late",
+      bytes: writeScene((({ sets, results }) => ((results[0].times = [2]), { sets, results }))(findings())),
+      says: /results 0: times: element 0: 2 is not in \[0, 1\]/,
     },
     {
       name: "a node of nothing",
