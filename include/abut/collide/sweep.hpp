@@ -256,8 +256,9 @@ struct sweeps_in_parts : ask_sweep<A, Filter> {
 /// that are touched at one time are known to be. The same bits on every policy. `fast` is approximate.
 ///
 /// Of cylinders and cones that is certified and not exact, whatever is asked. They are never touched later than is told, and
-/// what they are said to pass they do not touch. The time is early by no more than 2^-36 of the sizes (docs/sweeps.md): at it
-/// the two are as near as that. So shapes that pass each other as near may count as touched.
+/// what they are said to pass they do not touch. The time is early by 2^-36 of the sizes at most: at it the two are as near as
+/// that, but for one of 10,000 to 100,000, where doubles lead no nearer (docs/sweeps.md). Shapes that pass each other as near may
+/// count as touched.
 ///
 /// The point lies on the shape that is touched. The normal has length 1 and points out of that shape; it is zero where shapes
 /// overlap at the start. Both are computed in double at the time of the touch, and nothing is decided by them. Where a shape

@@ -2,7 +2,7 @@
 #pragma once
 
 // When a cylinder or a cone that goes along a vector comes to another shape, or another shape to it: never too late, and early by no
-// more than a length, 2^-36 of the sizes. By conservative advancement (G. van den Bergen, Ray casting against general convex objects,
+// more than a length, 2^-36 of the sizes, if doubles lead so near; else it ends sooner, and so early. By conservative advancement (G. van den Bergen, Ray casting against general convex objects,
 // 2004): at a time the search of narrow/plain_search.hpp brackets how far apart the two are. If that is within the tolerance, it is
 // the time. Else no points of the two are nearer to each other along some way than some length, and until that is gone they are
 // apart; the search goes on from there. That they never come together is proven alike.
