@@ -85,9 +85,11 @@ ABUT_HD constexpr auto contact_in_any_order(const S& s, const U& t) {
                 return first.found;
         }
         return contact_between(s, t);
+    } else if constexpr (contact_pair<U, S>) {
+        return reversed(contact_in_any_order(t, s));
     } else {
         static_assert(contact_pair<U, S>, "abut: there are no contacts of this pair of shapes; a shape of your own needs contact_between(s, t) beside it (docs/extending.md)");
-        return reversed(contact_in_any_order(t, s));
+        return contact<scalar_type_of<S>>{};
     }
 }
 
