@@ -71,6 +71,8 @@ NAMES = {
     "collide/inside.hpp": "const auto& scan = mesh;",
     "collide/hull_edges.hpp": "const std::vector<std::vector<abut::vec3<float>>> lists;",
     "shape/turning.hpp": GEAR + MOTION,
+    "collide/scene_meetings.hpp": GEAR + "const auto scene = abut::make_bodies(on, std::vector{abut::posed(gear, here)});"
+                                         "const std::vector<abut::rigid<float>> poses;",
     "collide/turning.hpp": GEAR + MOTION + "const auto room = gear; using index = decltype(gear);"
                            "const std::vector<std::pair<abut::rigid<float>, abut::rigid<float>>> roadmap;"
                            "static const auto turn_back = [] {};",

@@ -251,7 +251,7 @@ struct take_touching {
 ///
 /// @par Example
 ///     const auto next = abut::refit(on, scene, poses);
-///     for (const auto& m : to_host(abut::first_meetings(on, abut::moving(scene, next), {.tolerance = 1e-3}))) use(m.first.time);
+///     for (const auto& m : abut::to_host(abut::first_meetings(on, abut::moving(scene, next), {.tolerance = 1e-3}))) use(m.first.time);
 template <execution_policy Policy, class Index, class Filter = keep_all>
 [[nodiscard]] auto first_meetings(const Policy& on, const bodies_motion<Index>& scene, const scene_meeting_options<Filter>& options) {
     std::vector<body_meeting> found;

@@ -91,6 +91,34 @@ concept impact_like = requires(const I& i) {
     static_cast<unsigned char>(i.kind);
 };
 
+namespace detail {
+
+/// Results that have a place each: ids, points, normals, one number, and a line along the normal.
+class gltf_rows {
+public:
+    explicit gltf_rows(const gltf_canvas& canvas) : canvas_(canvas), length_(canvas.line_length()) {}
+    template <class A, class B, class P, class N>
+    void add(A a, B b, const vec3<P>& point, const vec3<P>& normal, N number) {
+        of_a.push_back(static_cast<std::uint32_t>(a));
+        of_b.push_back(static_cast<std::uint32_t>(b));
+        const std::array<float, 3> p = canvas_.rounded(in_double(point)),
+                                   n = canvas_.in_float(in_double(normal));
+        points.insert(points.end(), p.begin(), p.end());
+        normals.insert(normals.end(), n.begin(), n.end());
+        numbers.push_back(static_cast<float>(number));
+        lines.insert(lines.end(), p.begin(), p.end());
+        for (std::size_t k = 0; k < 3; ++k) lines.push_back(p[k] + length_ * n[k]);
+    }
+    std::vector<std::uint32_t> of_a, of_b;
+    std::vector<float> points, normals, numbers, lines;
+
+private:
+    const gltf_canvas& canvas_;
+    float length_;
+};
+
+}  // namespace detail
+
 /// A scene that is being put together: sets, and what touches among them. `write_gltf` writes it.
 ///
 /// @par Memory
@@ -221,7 +249,7 @@ public:
         const gltf_set set = add_surfaces(name, start, stop, {.hit = touches});
         add(name + ": ways", shapes(parts), {.hit = gone});
         say_of_last({{"role", "\"ways\""}});
-        placed_rows rows(canvas_);
+        detail::gltf_rows rows(canvas_);
         for (std::size_t i = 0; i < count; ++i) {
             if (touches[i] != 0) rows.add(i, hits[i].id, hits[i].point, hits[i].normal, hits[i].t);
         }
@@ -263,7 +291,7 @@ public:
     template <std::ranges::input_range Contacts>
         requires contact_like<std::ranges::range_value_t<Contacts>>
     void add_contacts(gltf_set a, gltf_set b, const Contacts& contacts, const gltf_result_options& options = {}) {
-        placed_rows rows(canvas_);
+        detail::gltf_rows rows(canvas_);
         for (const auto& c : contacts) rows.add(c.a, c.b, c.point, c.normal, c.depth);
         add_rows("contacts", "depths", a, b, rows, options);
     }
@@ -359,30 +387,7 @@ private:
         sets_.back() += more.substr(1);
     }
 
-    /// Results that have a place each: ids, points, normals, one number, and a line along the normal.
-    class placed_rows {
-    public:
-        explicit placed_rows(const detail::gltf_canvas& canvas) : canvas_(canvas), length_(canvas.line_length()) {}
-        template <class A, class B, class P, class N>
-        void add(A a, B b, const vec3<P>& point, const vec3<P>& normal, N number) {
-            of_a.push_back(static_cast<std::uint32_t>(a));
-            of_b.push_back(static_cast<std::uint32_t>(b));
-            const std::array<float, 3> p = canvas_.rounded(detail::in_double(point)),
-                                       n = canvas_.in_float(detail::in_double(normal));
-            points.insert(points.end(), p.begin(), p.end());
-            normals.insert(normals.end(), n.begin(), n.end());
-            numbers.push_back(static_cast<float>(number));
-            lines.insert(lines.end(), p.begin(), p.end());
-            for (std::size_t k = 0; k < 3; ++k) lines.push_back(p[k] + length_ * n[k]);
-        }
-        std::vector<std::uint32_t> of_a, of_b;
-        std::vector<float> points, normals, numbers, lines;
-
-    private:
-        const detail::gltf_canvas& canvas_;
-        float length_;
-    };
-    void add_rows(const char* kind, const char* number, gltf_set a, gltf_set b, const placed_rows& rows,
+    void add_rows(const char* kind, const char* number, gltf_set a, gltf_set b, const detail::gltf_rows& rows,
                   const gltf_result_options& options) {
         if (rows.of_a.empty()) return add_result(kind, a, b, 0, {}, {}, options);
         const std::string node = detail::json_number(canvas_.add_lines(rows.lines));
