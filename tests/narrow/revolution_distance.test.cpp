@@ -119,6 +119,14 @@ TEMPLATE_TEST_CASE("distance: cylinders and cones over thin triangles, against 3
     check_total("triangles, thin", triangles);
 }
 
+TEST_CASE("distance: of a cone and a segment of the smallest floats that touch is 0") {
+    constexpr float u = 0x1p-149f;
+    const cone<float> s{{-u, -3 * u, -4 * u}, {-2 * u, -3 * u, u}, 2 * u};
+    const segment<float> t{{-u, 2 * u, 4 * u}, {-2 * u, -u, u}};
+    CHECK(intersects<exact>(s, t));
+    CHECK(distance(s, t).distance == 0);
+}
+
 TEMPLATE_TEST_CASE("distance: of cylinders and cones, in each family, against 300 bits", "", cylinder<float>,
                    cylinder<double>, cone<float>, cone<double>) {
     using T = scalar_type_of<TestType>;

@@ -465,6 +465,9 @@ ABUT_NOINLINE ABUT_HD constexpr plain_guess finish_search(const plain_solid& a, 
     return by_a ? guess(here, there) : guess(there, here);
 }
 
+/// A way that is no longer tells nothing: squares of its part across an axis might underflow.
+inline constexpr double shortest_usable_way = 0x1p-400;
+
 /// Whether a guess is as near as the shapes are, but for `enough`; if so it is what is found.
 template <class A, class B>
 ABUT_HD constexpr bool settles(const A& a, const B& b, const plain_guess& g, double enough, plain_nearest& found) {
@@ -472,7 +475,7 @@ ABUT_HD constexpr bool settles(const A& a, const B& b, const plain_guess& g, dou
     const point way = plain_difference(g.on_b, g.on_a);
     const double length = root(one_double{plain_dot(way, way)}).high,
                  of_along = root(one_double{plain_dot(g.along, g.along)}).high;
-    if (!g.is || !(of_along > 0)) return false;
+    if (!g.is || !(of_along > shortest_usable_way)) return false;
     const point back = plain_difference(b.farthest(negated(g.along)), a.farthest(g.along));
     const double ahead = plain_dot(g.along, back) / of_along;
     if (!(plain_sum(length, -ahead) <= enough)) return false;
@@ -502,7 +505,7 @@ ABUT_NOINLINE ABUT_HD constexpr plain_nearest search_in_doubles(const A& a, cons
                     w = plain_difference(q, p);
         if (step > 0) {
             const double of_along = root(one_double{plain_dot(along, along)}).high;
-            if (!(of_along > 0)) break;
+            if (!(of_along > shortest_usable_way)) break;
             const double ahead = plain_dot(along, w) / of_along;
             if (ahead > found.least) found.least = ahead;
             if (plain_sum(found.length, -found.least) <= enough) {

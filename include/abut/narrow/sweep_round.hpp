@@ -106,7 +106,7 @@ private:
     [[nodiscard]] ABUT_HD constexpr double gap_along(const plain_solid& here, const point& n) const {
         using namespace contact_math;
         const double length = root(one_double{plain_dot(n, n)}).high;
-        if (!(length > 0x1p-600)) return -infinity<double>;
+        if (!(length > shortest_usable_way)) return -infinity<double>;
         return plain_sum(plain_dot(n, plain_difference(core_.farthest(negated(n)), here.farthest(n))) / length, -radius_);
     }
 
