@@ -149,22 +149,26 @@ inline constexpr bool is_bodies_motion<bodies_motion<Index>> = true;
 template <class X>
 concept scene_on_way = is_bodies_motion<X> || many_bodies<X>;
 
-/// Asks of each two bodies whose boxes meet, as many at a time as a list may have in memory, and takes `take(bodies, answer)`.
-template <class Answer, class Policy, class IndexA, class IndexB, class Filter, class Take>
+/// Asks of each two bodies whose boxes meet, as many at a time as a list may have in memory, and adds what is told of them.
+template <class Question, class Policy, class IndexA, class IndexB, class Filter>
 void ask_bodies_on_way(const Policy& on, const scene_ways<IndexA>& a, const scene_ways<IndexB>& b, const std::vector<index_pair>& near,
-                       const scene_meeting_options<Filter>& options, const std::string& function, const Take& take) {
+                       const scene_meeting_options<Filter>& options, const std::string& function,
+                       std::vector<typename Question::found>& found) {
+    using answer = typename Question::answer;
     constexpr std::size_t most = 65536;
     std::vector<index_pair> bodies;
     std::vector<moving_pair<IndexA, IndexB>> list;
-    std::vector<Answer> answers;
+    std::vector<answer> answers;
     const auto ask = [&] {
         const auto name = [&](std::size_t i) {
             return function + ": bodies " + std::to_string(bodies[i].a) + " and " + std::to_string(bodies[i].b);
         };
-        const auto there = meetings_of<Answer>(on, list, {options.tolerance}, function, name);
+        const auto there = meetings_of<answer>(on, list, {options.tolerance}, function, name);
         answers.resize(list.size());
         download(on, there.data(), list.size(), answers.data());
-        for (std::size_t i = 0; i < list.size(); ++i) take(bodies[i], answers[i]);
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            if (Question::is_told(answers[i])) found.push_back(Question::tell(bodies[i], answers[i]));
+        }
         list.clear();
         bodies.clear();
     };
@@ -178,30 +182,6 @@ void ask_bodies_on_way(const Policy& on, const scene_ways<IndexA>& a, const scen
     if (!list.empty()) ask();
 }
 
-/// Within one scene, or between two.
-///@{
-template <class Answer, class Policy, class Scene, class Filter, class Take>
-void ask_scene_on_way(const Policy& on, const Scene& scene, const scene_meeting_options<Filter>& options, const std::string& function,
-                      const Take& take) {
-    using index = typename Scene::index_type;
-    check(meeting_options{options.tolerance}, function);
-    const scene_ways<index> ways(on, as_motion(scene), options.tolerance, function);
-    const boxes<typename index::scalar_type> all(ways.boxes);
-    ask_bodies_on_way<Answer>(on, ways, ways, to_host(self_pairs(on, make_bvh(on, copy_to(on, all)))), options, function, take);
-}
-template <class Answer, class Policy, class SceneA, class SceneB, class Filter, class Take>
-void ask_scenes_on_way(const Policy& on, const SceneA& a, const SceneB& b, const scene_meeting_options<Filter>& options,
-                       const std::string& function, const Take& take) {
-    using index_a = typename SceneA::index_type;
-    using index_b = typename SceneB::index_type;
-    check(meeting_options{options.tolerance}, function);
-    const scene_ways<index_a> of_a(on, as_motion(a), options.tolerance, function);
-    const scene_ways<index_b> of_b(on, as_motion(b), options.tolerance, function);
-    const boxes<typename index_a::scalar_type> all_a(of_a.boxes), all_b(of_b.boxes);
-    ask_bodies_on_way<Answer>(on, of_a, of_b, to_host(pairs(on, make_bvh(on, copy_to(on, all_a)), make_bvh(on, copy_to(on, all_b)))),
-                              options, function, take);
-}
-///@}
 
 /// What is found, in the policy's memory.
 template <class Found, class Policy>
@@ -212,18 +192,53 @@ result<Found, space_of<Policy>> result_of_host(const Policy& on, const std::vect
     return result<Found, space_of<Policy>>(std::move(there));
 }
 
-struct take_meetings {
-    std::vector<body_meeting>& found;
-    void operator()(const index_pair& bodies, const meeting& first) const {
-        if (first.a != no_id) found.push_back({bodies.a, bodies.b, first});
-    }
+/// What is asked of each two bodies, and what is said of those that meet.
+///@{
+struct first_of_bodies {
+    using answer = meeting;
+    using found = body_meeting;
+    static bool is_told(const meeting& first) { return first.a != no_id; }
+    static body_meeting tell(const index_pair& bodies, const meeting& first) { return {bodies.a, bodies.b, first}; }
 };
-struct take_touching {
-    std::vector<index_pair>& found;
-    void operator()(const index_pair& bodies, std::uint8_t meet) const {
-        if (meet != 0) found.push_back(bodies);
-    }
+struct whether_bodies_meet {
+    using answer = std::uint8_t;
+    using found = index_pair;
+    static bool is_told(std::uint8_t meet) { return meet != 0; }
+    static index_pair tell(const index_pair& bodies, std::uint8_t) { return bodies; }
 };
+///@}
+
+/// Within one scene, or between two.
+///@{
+template <class Question, class Policy, class Scene, class Filter>
+auto ask_scenes_on_way(const Policy& on, const Scene& scene, const scene_meeting_options<Filter>& options, const std::string& function) {
+    using index = typename Scene::index_type;
+    std::vector<typename Question::found> found;
+    if constexpr (can_turn<Policy, index, index>()) {
+        check(meeting_options{options.tolerance}, function);
+        const scene_ways<index> ways(on, as_motion(scene), options.tolerance, function);
+        const boxes<typename index::scalar_type> all(ways.boxes);
+        ask_bodies_on_way<Question>(on, ways, ways, to_host(self_pairs(on, make_bvh(on, copy_to(on, all)))), options, function, found);
+    }
+    return result_of_host(on, found);
+}
+template <class Question, class Policy, class SceneA, class SceneB, class Filter>
+auto ask_scenes_on_way(const Policy& on, const SceneA& a, const SceneB& b, const scene_meeting_options<Filter>& options,
+                       const std::string& function) {
+    using index_a = typename SceneA::index_type;
+    using index_b = typename SceneB::index_type;
+    std::vector<typename Question::found> found;
+    if constexpr (can_turn<Policy, index_a, index_b>()) {
+        check(meeting_options{options.tolerance}, function);
+        const scene_ways<index_a> of_a(on, as_motion(a), options.tolerance, function);
+        const scene_ways<index_b> of_b(on, as_motion(b), options.tolerance, function);
+        const boxes<typename index_a::scalar_type> all_a(of_a.boxes), all_b(of_b.boxes);
+        ask_bodies_on_way<Question>(on, of_a, of_b, to_host(pairs(on, make_bvh(on, copy_to(on, all_a)), make_bvh(on, copy_to(on, all_b)))),
+                                    options, function, found);
+    }
+    return result_of_host(on, found);
+}
+///@}
 
 }  // namespace detail
 
@@ -254,42 +269,26 @@ struct take_touching {
 ///     for (const auto& m : abut::to_host(abut::first_meetings(on, abut::moving(scene, next), {.tolerance = 1e-3}))) use(m.first.time);
 template <execution_policy Policy, class Index, class Filter = keep_all>
 [[nodiscard]] auto first_meetings(const Policy& on, const bodies_motion<Index>& scene, const scene_meeting_options<Filter>& options) {
-    std::vector<body_meeting> found;
-    if constexpr (detail::can_turn<Policy, Index, Index>()) {
-        detail::ask_scene_on_way<meeting>(on, scene, options, "abut::first_meetings", detail::take_meetings{found});
-    }
-    return detail::result_of_host(on, found);
+    return detail::ask_scenes_on_way<detail::first_of_bodies>(on, scene, options, "abut::first_meetings");
 }
 /// The same of each body of `a` and each of `b`, of which one scene may be at rest. body_a is the number in a, body_b in b.
 template <execution_policy Policy, detail::scene_on_way SceneA, detail::scene_on_way SceneB, class Filter = keep_all>
     requires(detail::is_bodies_motion<SceneA> || detail::is_bodies_motion<SceneB>)
 [[nodiscard]] auto first_meetings(const Policy& on, const SceneA& a, const SceneB& b, const scene_meeting_options<Filter>& options) {
-    std::vector<body_meeting> found;
-    if constexpr (detail::can_turn<Policy, typename SceneA::index_type, typename SceneB::index_type>()) {
-        detail::ask_scenes_on_way<meeting>(on, a, b, options, "abut::first_meetings", detail::take_meetings{found});
-    }
-    return detail::result_of_host(on, found);
+    return detail::ask_scenes_on_way<detail::first_of_bodies>(on, a, b, options, "abut::first_meetings");
 }
 
 /// Which bodies meet at all on their ways: a `result` of `index_pair`, those of `first_meetings`, in less time. Memory, errors and
 /// synchronisation are those of that.
 template <execution_policy Policy, class Index, class Filter = keep_all>
 [[nodiscard]] auto touching_bodies(const Policy& on, const bodies_motion<Index>& scene, const scene_meeting_options<Filter>& options) {
-    std::vector<index_pair> found;
-    if constexpr (detail::can_turn<Policy, Index, Index>()) {
-        detail::ask_scene_on_way<std::uint8_t>(on, scene, options, "abut::touching_bodies", detail::take_touching{found});
-    }
-    return detail::result_of_host(on, found);
+    return detail::ask_scenes_on_way<detail::whether_bodies_meet>(on, scene, options, "abut::touching_bodies");
 }
 /// The same of two scenes.
 template <execution_policy Policy, detail::scene_on_way SceneA, detail::scene_on_way SceneB, class Filter = keep_all>
     requires(detail::is_bodies_motion<SceneA> || detail::is_bodies_motion<SceneB>)
 [[nodiscard]] auto touching_bodies(const Policy& on, const SceneA& a, const SceneB& b, const scene_meeting_options<Filter>& options) {
-    std::vector<index_pair> found;
-    if constexpr (detail::can_turn<Policy, typename SceneA::index_type, typename SceneB::index_type>()) {
-        detail::ask_scenes_on_way<std::uint8_t>(on, a, b, options, "abut::touching_bodies", detail::take_touching{found});
-    }
-    return detail::result_of_host(on, found);
+    return detail::ask_scenes_on_way<detail::whether_bodies_meet>(on, a, b, options, "abut::touching_bodies");
 }
 
 ///@}
