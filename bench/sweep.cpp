@@ -11,7 +11,6 @@
 // `hits` are rows that meet something. `wrong`: of the first 2,000 rows those that differ from what integers alone say.
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -25,31 +24,11 @@
 
 #include "google.hpp"
 #include "mesh_file.hpp"
-#include "raycast_scene.hpp"
+#include "sweep_scene.hpp"
 
 namespace {
 
 constexpr std::size_t sweep_bench_side = 316;
-
-/// Ways of a kind of rays, and what goes along them.
-struct sweep_bench_rows {
-    std::vector<abut::segment<float>> lines;
-    std::vector<abut::sphere<float>> balls;
-    std::vector<abut::capsule<float>> capsules;
-    std::vector<abut::vec3<float>> ways;
-
-    sweep_bench_rows(const scene::surface<float>& mesh, std::size_t kind) {
-        const float half = raycast_scene::around(mesh).half, radius = half * 0x1p-9f;
-        for (const auto& r : raycast_scene::rays_at(mesh, kind, sweep_bench_side)) {
-            const float length = std::sqrt(dot(r.direction, r.direction));
-            const abut::vec3<float> way = (6 * half / length) * r.direction, end = r.origin + way;
-            lines.push_back({r.origin, end});
-            balls.push_back({r.origin, radius});
-            capsules.push_back({{r.origin, r.origin + abut::vec3<float>{0, 0, 2 * radius}}, radius});
-            ways.push_back(way);
-        }
-    }
-};
 
 template <class Ask>
 void add_sweep(const std::string& name, const Ask& ask, std::size_t wrong = 0) {
@@ -85,7 +64,7 @@ template <class Index>
 void add_sweeps(const char* index_name, const scene::surface<float>& mesh, const Index& index) {
     const abut::serial on;
     for (std::size_t kind = 0; kind < raycast_scene::kinds.size(); ++kind) {
-        const sweep_bench_rows rows(mesh, kind);
+        const sweep_scene::rows rows(mesh, kind, sweep_bench_side);
         const std::string rays = raycast_scene::kinds[kind];
         const abut::points<float> ways(rows.ways);
         add_sweep("raycast/" + rays + "/" + index_name,

@@ -39,17 +39,16 @@
 
 #include "mesh_file.hpp"
 #include "results.hpp"
+#include "turning_scene.hpp"
 
 namespace {
 
 using mesh = abut::mesh<float>;
-using index_type = decltype(abut::make_bvh(abut::serial{}, mesh{}));
 using fcl_model = fcl::BVHModel<fcl::OBBRSSd>;
 
-struct surface {
-    std::vector<abut::vec3<float>> vertices;
-    std::vector<abut::face> faces;
-};
+using turning_scene::surface;
+using turning_scene::tolerance;
+
 std::shared_ptr<fcl_model> model_of(const surface& s) {
     auto m = std::make_shared<fcl_model>();
     std::vector<fcl::Vector3d> vertices;
@@ -71,28 +70,6 @@ fcl::Transform3d transform_of(const abut::rigid<float>& p) {
     return t;
 }
 
-class numbers {
-public:
-    double between(double low, double high) {
-        state_ = state_ * 6364136223846793005u + 1442695040888963407u;
-        return low + (high - low) * static_cast<double>(state_ >> 11) * 0x1p-53;
-    }
-
-private:
-    std::uint64_t state_ = 20190819;
-};
-abut::rigid<float> pose_of(double (&q)[4], const abut::vec3<double>& at) {
-    const double n = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    const double w = q[0] / n, x = q[1] / n, y = q[2] / n, z = q[3] / n;
-    const double m[9] = {1 - 2 * (y * y + z * z), 2 * (x * y - w * z),     2 * (x * z + w * y),
-                         2 * (x * y + w * z),     1 - 2 * (x * x + z * z), 2 * (y * z - w * x),
-                         2 * (x * z - w * y),     2 * (y * z + w * x),     1 - 2 * (x * x + y * y)};
-    abut::rigid<float> p;
-    for (int i = 0; i < 9; ++i) p.rotation[i] = static_cast<float>(m[i]);
-    p.translation = {static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)};
-    return p;
-}
-
 template <class F>
 double median_ms(int runs, const F& f) {
     std::vector<double> all;
@@ -105,35 +82,13 @@ double median_ms(int runs, const F& f) {
     return all[all.size() / 2];
 }
 
-constexpr double tolerance = 0.1;
-
-void compare(bench::results& out, const std::string& kind, const surface& robot, const surface& room, bool is_short,
-             bool begins_free, std::size_t n, int runs) {
+void compare(bench::results& out, const turning_scene::kind& of, const surface& robot, const surface& room, std::size_t n, int runs) {
     const abut::serial on;
-    const abut::bvh_options with{.builder = abut::bvh_builder::sah};
-    const auto of_robot = abut::make_bvh(on, mesh(robot.vertices, robot.faces), with),
-               of_room = abut::make_bvh(on, mesh(room.vertices, room.faces), with);
+    const std::string kind = of.name;
+    const auto of_robot = abut::make_bvh(on, mesh(robot.vertices, robot.faces), turning_scene::how_built),
+               of_room = abut::make_bvh(on, mesh(room.vertices, room.faces), turning_scene::how_built);
     const auto fcl_robot = model_of(robot), fcl_room = model_of(room);
-    numbers draw;
-    std::vector<abut::moving_pair<index_type>> list;
-    while (list.size() < n) {
-        double q[4], r[4];
-        double length = 0;
-        for (double& x : q) x = draw.between(-1, 1), length += x * x;
-        if (length > 1 || length < 0.01) continue;
-        const abut::vec3<double> at{draw.between(-3000, 3000), draw.between(-3000, 3000), draw.between(0, 2987)};
-        abut::vec3<double> to{draw.between(-3000, 3000), draw.between(-3000, 3000), draw.between(0, 2987)};
-        for (double& x : r) x = draw.between(-1, 1);
-        if (is_short) {
-            // A turn by half a radian at most is one by a quaternion that is a tenth off.
-            for (int i = 0; i < 4; ++i) r[i] = q[i] + 0.1 * std::sqrt(length) * r[i];
-            to = {at.x + draw.between(-170, 170), at.y + draw.between(-170, 170), at.z + draw.between(-170, 170)};
-        }
-        const auto from = pose_of(q, at), end = pose_of(r, to);
-        if (begins_free && abut::any(on, abut::posed(of_robot, from), of_room)) continue;
-        list.push_back({abut::moving(abut::posed(of_robot, from), abut::posed(of_robot, end)),
-                        abut::posed(of_room, abut::rigid<float>{})});
-    }
+    const auto list = turning_scene::pairs_of(turning_scene::motions_of(of, of_robot, of_room, n), of_robot, of_room);
     const auto found = abut::to_host(abut::first_meetings(on, list, {tolerance}));
     // What surely meets: at one of many poses on the way they intersect.
     std::vector<char> surely(n);
@@ -202,9 +157,7 @@ int main(int argc, char** argv) {
         const auto robot = bench::read_surface<surface>(data + "/meshes/rob.obj"),
                    room = bench::read_surface<surface>(data + "/meshes/env.obj");
         bench::results out("bench_turning");
-        compare(out, "short", robot, room, true, true, std::stoul(motions), std::stoi(runs));
-        compare(out, "long", robot, room, false, true, std::stoul(motions), std::stoi(runs));
-        compare(out, "anywhere", robot, room, false, false, std::stoul(motions), std::stoi(runs));
+        for (const auto& of : turning_scene::kinds) compare(out, of, robot, room, std::stoul(motions), std::stoi(runs));
         if (!json.empty()) out.write(json);
         return 0;
     } catch (const std::exception& e) {
