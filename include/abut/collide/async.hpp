@@ -85,7 +85,7 @@ struct async_state {
 
 /// What is known of a number or a truth value when the stream has made it.
 template <class T>
-    requires(std::same_as<T, bool> || std::same_as<T, std::uint64_t>)
+    requires(std::same_as<T, bool> || std::same_as<T, std::uint64_t> || std::same_as<T, double>)
 struct async_value_state {
     T value{};                    ///< the answer if nothing is undecided; otherwise no more than that
     std::uint64_t undecided = 0;  ///< as of async_state; 0 where `value` is true
@@ -176,6 +176,20 @@ struct answer_found {
         if (i < state->size) answer(i);
     }
 };
+
+/// Candidates that a result of this type lets wait by itself.
+template <class T>
+inline constexpr std::uint64_t most_open_of = execution::most_open;
+template <>
+inline constexpr std::uint64_t most_open_of<double> = std::uint64_t{1} << 23;
+
+/// Throws where a result lies on another device.
+template <class Policy, class Outcome>
+void check_outcome(const Policy& on, const Outcome& into, const std::string& function) {
+    if (into.device() == device_of(on)) return;
+    throw error(function + ": the result lies on device " + std::to_string(into.device()) + ", the policy works on device " +
+                std::to_string(device_of(on)));
+}
 
 /// What results let queries reach.
 struct async_parts {
@@ -281,7 +295,7 @@ public:
     /// in floating point cannot decide. By itself 2^21; docs/results/trade.md says how many they are. Does not wait. Throws
     /// std::bad_alloc, cuda_error.
     template <works_in<Space> Policy>
-    async_result(const Policy& policy, std::size_t capacity, std::uint64_t open_capacity = execution::most_open)
+    async_result(const Policy& policy, std::size_t capacity, std::uint64_t open_capacity = detail::most_open_of<T>)
         : items_(policy, capacity), room_(policy, open_capacity) {}
 
     /// Elements that there is room for.
@@ -311,7 +325,7 @@ public:
     /// Taken in the order of the policy's stream, which has to outlive it. Not within a capture. `open_capacity` is that of
     /// async_result. Does not wait. Throws std::bad_alloc, cuda_error.
     template <works_in<Space> Policy>
-    explicit async_value(const Policy& policy, std::uint64_t open_capacity = execution::most_open)
+    explicit async_value(const Policy& policy, std::uint64_t open_capacity = detail::most_open_of<T>)
         : room_(policy, open_capacity) {}
 
     /// In device memory.
@@ -364,10 +378,7 @@ void ask_pairs(const async<Policy, Outcome>& stream, const Question& question, c
         if constexpr (requires { question.answer.discard_sideways; }) {
             if (question.answer.discard_sideways) throw error(name + ": contacts are discarded by calls that wait");
         }
-        if (into.device() != device_of(on)) {
-            throw error(name + ": the result lies on device " + std::to_string(into.device()) +
-                        ", the policy works on device " + std::to_string(device_of(on)));
-        }
+        check_outcome(on, into, name);
         const auto pairing = form.template pair_up<input::trusted>(on, question.relation, options, false, name.c_str());
         auto& room = async_parts::room(into);
         room.again = [on, pairing, question] { return question.find(on, pairing); };
