@@ -154,7 +154,7 @@ TEST_CASE("async motion: as calls that wait") {
         const two_sheets sheets(d, 24, bumps);
         const mesh<float> ball = small_ball(11, 12, -0.4f, 2.5f);
         const auto x = make_impact_index(on, sheets.step()), y = make_impact_index(on, ball);
-        step_answers answers(on, 20'000);
+        step_answers answers(on, 100'000);
         answers.ask(on, x, y);
         CHECK(answers.check(on, sheets.step(), ball) > 100);
     }
@@ -267,7 +267,7 @@ TEST_CASE("async motion: a step is one graph") {
     fill(on, count.data(), 1, 0u);
     const auto with = make_impact_index(on, ball);
     async_index cloth(on, make_impact_index(on, sheets.step()));
-    step_answers answers(on, 20'000);
+    step_answers answers(on, 100'000);
     const unsigned blocks = static_cast<unsigned>(there.from.size() / 256 + 1);
     const auto run = [&] {
         next_step<<<blocks, 256, 0, on.stream>>>(there.from.data(), there.to.data(), there.from.size(), count.data());
