@@ -31,12 +31,12 @@ namespace abut {
 /// @par Memory
 /// Arguments lie on the policy's device: sets, views, single shapes, and indices. A set in host memory does not compile;
 /// `copy_to` brings it over. Both results own device memory of a fixed size. Each call takes memory for its own use in the
-/// order of the stream, and gives it back so: 8 bytes for each pair that may be left open (see async_result), some 17 MB for
-/// two trees, and to make a list 16 bytes for each pair of its capacity, somewhat more where it sorts.
+/// order of the stream, and gives it back so: 8 bytes for each pair that may be left open (see async_result), of impacts 16; some
+/// 17 MB for two trees; and to make a list 16 bytes for each pair of its capacity, somewhat more where it sorts.
 ///
 /// @par What has to live
 /// Until the stream has done the work, and until `wait` where that is called: the result, and what a view or a filter points
-/// to. The result keeps the sets and indices of the last call that it was given to. Those that were made in another stream
+/// to. The result keeps the sets and indices of the last call that it was given to, and no async_index. Those that were made in another stream
 /// are given back in that one, so keep them until the work is done. Elements may change when the work is done, and not
 /// before; `wait` looks at them again if the state says `undecided`.
 ///
@@ -53,8 +53,9 @@ namespace abut {
 /// were made.
 ///
 /// @par What there is not
-/// Lists of posed pairs, bodies, visitors, queries by row, `impacts`, grids under a pose, `breadth_first`, `from_front`,
-/// `static_partition`, a `schedule_report`, and `discard_sideways`. The last two throw, the others do not compile.
+/// Lists of posed pairs, bodies, visitors, queries by row but `nearest` (float), `raycast` and `raycast_any`, impacts of meshes
+/// without an index, grids under a pose, `breadth_first`, `from_front`, `static_partition`, a `schedule_report`, and
+/// `discard_sideways`. The last two throw, the others do not compile.
 ///
 /// @par Errors
 /// - `error`: a result, a set or an index lies on another device; `start_depth` is out of range; or a report or
@@ -83,7 +84,8 @@ struct async_state {
     std::uint64_t undecided = 0;
 };
 
-/// What is known of a number or a truth value when the stream has made it.
+/// What is known of a number or a truth value when the stream has made it. Of a safe step `value` is never late: what is
+/// undecided has a bound in its place, and where candidates found no room it is 0.
 template <class T>
     requires(std::same_as<T, bool> || std::same_as<T, std::uint64_t> || std::same_as<T, double>)
 struct async_value_state {
@@ -287,13 +289,13 @@ consteval bool can_ask_async() {
 template <class T, memory_space Space = device_space>
 class async_result {
 public:
-    using value_type = T;        ///< index_pair or contact
+    using value_type = T;        ///< index_pair, contact, impact, neighbor, ray_hit, std::uint8_t
     using memory_space = Space;  ///< where they lie
 
     /// Room for `capacity` elements, taken in the order of the policy's stream, which has to outlive it. Not within a
     /// capture. A query may leave `open_capacity` pairs open until a second kernel finishes them: those that its first try
-    /// in floating point cannot decide. By itself 2^21; docs/results/trade.md says how many they are. Does not wait. Throws
-    /// std::bad_alloc, cuda_error.
+    /// in floating point cannot decide. By itself 2^21; docs/results/trade.md says how many they are. Of impacts these are the
+    /// candidates, pairs of features whose boxes meet, by itself 2^23. Does not wait. Throws std::bad_alloc, cuda_error.
     template <works_in<Space> Policy>
     async_result(const Policy& policy, std::size_t capacity, std::uint64_t open_capacity = detail::most_open_of<T>)
         : items_(policy, capacity), room_(policy, open_capacity) {}
@@ -314,12 +316,12 @@ private:
     detail::async_room<async_state, result<T, Space>, Space> room_;
 };
 
-/// A number or a truth value that a stream makes, `std::uint64_t` or `bool`: its state alone, in device memory. Movable, not
-/// copyable. One call at a time may use it.
+/// A number or a truth value that a stream makes, `std::uint64_t`, `bool`, or `double` of a safe step: its state alone, in
+/// device memory. Movable, not copyable. One call at a time may use it.
 template <class T, memory_space Space = device_space>
 class async_value {
 public:
-    using value_type = T;        ///< bool or std::uint64_t
+    using value_type = T;        ///< bool, std::uint64_t or double
     using memory_space = Space;  ///< where it lies
 
     /// Taken in the order of the policy's stream, which has to outlive it. Not within a capture. `open_capacity` is that of
@@ -342,8 +344,10 @@ private:
 /// A policy's stream as who answers a query, and where it leaves its outcome there: an `async_value` of `bool` for `any` and
 /// the like, of `std::uint64_t` for numbers, an `async_result` for lists. The query returns nothing, and does not wait.
 /// Queries of pairs of two arguments, or of one alone, take it: any, count, pairs, contacts, within, self_pairs and the others
-/// of these: `abut::within(abut::async(on, near), a, b, 0.01)`, where `near` is an `async_result<index_pair>`. Both have to
-/// live as long as the call.
+/// of these: `abut::within(abut::async(on, near), a, b, 0.01)`, where `near` is an `async_result<index_pair>`. So do impacts and
+/// first_impact of impact indices, with an `async_result` of `impact` (the first is a list of one, or of none); safe_step, with
+/// an `async_value<double>`; nearest, raycast and raycast_any, with an `async_result` of what they answer and room for each row;
+/// and their like within one mesh. `refit` takes it with an async_index. Both have to live as long as the call.
 template <execution_policy Policy, class Outcome>
 class async {
 public:

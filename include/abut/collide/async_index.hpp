@@ -187,6 +187,8 @@ private:
     index_type index_;
 };
 
+/// Of an index that it is made of.
+/// @ingroup async
 template <class Policy, class Index>
 async_index(const Policy&, const Index&) -> async_index<Index>;
 
