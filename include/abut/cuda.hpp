@@ -18,6 +18,9 @@
 
 #include <abut/abut.hpp>
 #include <abut/collide/async.hpp>
+#include <abut/collide/async_index.hpp>
+#include <abut/collide/async_motion.hpp>
+#include <abut/collide/async_rows.hpp>
 #include <abut/execution/cuda_ordered.hpp>
 #include <abut/execution/cuda_verbs.hpp>
 #if ABUT_ALLOW_UNTESTED_NVCC

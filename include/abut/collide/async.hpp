@@ -31,12 +31,12 @@ namespace abut {
 /// @par Memory
 /// Arguments lie on the policy's device: sets, views, single shapes, and indices. A set in host memory does not compile;
 /// `copy_to` brings it over. Both results own device memory of a fixed size. Each call takes memory for its own use in the
-/// order of the stream, and gives it back so: 8 bytes for each pair that may be left open (see async_result), some 17 MB for
-/// two trees, and to make a list 16 bytes for each pair of its capacity, somewhat more where it sorts.
+/// order of the stream, and gives it back so: 8 bytes for each pair that may be left open (see async_result), of impacts 16; some
+/// 17 MB for two trees; and to make a list 16 bytes for each pair of its capacity, somewhat more where it sorts.
 ///
 /// @par What has to live
 /// Until the stream has done the work, and until `wait` where that is called: the result, and what a view or a filter points
-/// to. The result keeps the sets and indices of the last call that it was given to. Those that were made in another stream
+/// to. The result keeps the sets and indices of the last call that it was given to, and no async_index. Those that were made in another stream
 /// are given back in that one, so keep them until the work is done. Elements may change when the work is done, and not
 /// before; `wait` looks at them again if the state says `undecided`.
 ///
@@ -53,8 +53,9 @@ namespace abut {
 /// were made.
 ///
 /// @par What there is not
-/// Lists of posed pairs, bodies, visitors, queries by row, `impacts`, grids under a pose, `breadth_first`, `from_front`,
-/// `static_partition`, a `schedule_report`, and `discard_sideways`. The last two throw, the others do not compile.
+/// Lists of posed pairs, bodies, visitors, queries by row but `nearest` (float), `raycast` and `raycast_any`, impacts of meshes
+/// without an index, grids under a pose, `breadth_first`, `from_front`, `static_partition`, a `schedule_report`, and
+/// `discard_sideways`. The last two throw, the others do not compile.
 ///
 /// @par Errors
 /// - `error`: a result, a set or an index lies on another device; `start_depth` is out of range; or a report or
@@ -83,9 +84,10 @@ struct async_state {
     std::uint64_t undecided = 0;
 };
 
-/// What is known of a number or a truth value when the stream has made it.
+/// What is known of a number or a truth value when the stream has made it. Of a safe step `value` is never late: what is
+/// undecided has a bound in its place, and where candidates found no room it is 0.
 template <class T>
-    requires(std::same_as<T, bool> || std::same_as<T, std::uint64_t>)
+    requires(std::same_as<T, bool> || std::same_as<T, std::uint64_t> || std::same_as<T, double>)
 struct async_value_state {
     T value{};                    ///< the answer if nothing is undecided; otherwise no more than that
     std::uint64_t undecided = 0;  ///< as of async_state; 0 where `value` is true
@@ -176,6 +178,20 @@ struct answer_found {
         if (i < state->size) answer(i);
     }
 };
+
+/// Candidates that a result of this type lets wait by itself.
+template <class T>
+inline constexpr std::uint64_t most_open_of = execution::most_open;
+template <>
+inline constexpr std::uint64_t most_open_of<double> = std::uint64_t{1} << 23;
+
+/// Throws where a result lies on another device.
+template <class Policy, class Outcome>
+void check_outcome(const Policy& on, const Outcome& into, const std::string& function) {
+    if (into.device() == device_of(on)) return;
+    throw error(function + ": the result lies on device " + std::to_string(into.device()) + ", the policy works on device " +
+                std::to_string(device_of(on)));
+}
 
 /// What results let queries reach.
 struct async_parts {
@@ -273,15 +289,15 @@ consteval bool can_ask_async() {
 template <class T, memory_space Space = device_space>
 class async_result {
 public:
-    using value_type = T;        ///< index_pair or contact
+    using value_type = T;        ///< index_pair, contact, impact, neighbor, ray_hit, std::uint8_t
     using memory_space = Space;  ///< where they lie
 
     /// Room for `capacity` elements, taken in the order of the policy's stream, which has to outlive it. Not within a
     /// capture. A query may leave `open_capacity` pairs open until a second kernel finishes them: those that its first try
-    /// in floating point cannot decide. By itself 2^21; docs/results/trade.md says how many they are. Does not wait. Throws
-    /// std::bad_alloc, cuda_error.
+    /// in floating point cannot decide. By itself 2^21; docs/results/trade.md says how many they are. Of impacts these are the
+    /// candidates, pairs of features whose boxes meet, by itself 2^23. Does not wait. Throws std::bad_alloc, cuda_error.
     template <works_in<Space> Policy>
-    async_result(const Policy& policy, std::size_t capacity, std::uint64_t open_capacity = execution::most_open)
+    async_result(const Policy& policy, std::size_t capacity, std::uint64_t open_capacity = detail::most_open_of<T>)
         : items_(policy, capacity), room_(policy, open_capacity) {}
 
     /// Elements that there is room for.
@@ -300,18 +316,18 @@ private:
     detail::async_room<async_state, result<T, Space>, Space> room_;
 };
 
-/// A number or a truth value that a stream makes, `std::uint64_t` or `bool`: its state alone, in device memory. Movable, not
-/// copyable. One call at a time may use it.
+/// A number or a truth value that a stream makes, `std::uint64_t`, `bool`, or `double` of a safe step: its state alone, in
+/// device memory. Movable, not copyable. One call at a time may use it.
 template <class T, memory_space Space = device_space>
 class async_value {
 public:
-    using value_type = T;        ///< bool or std::uint64_t
+    using value_type = T;        ///< bool, std::uint64_t or double
     using memory_space = Space;  ///< where it lies
 
     /// Taken in the order of the policy's stream, which has to outlive it. Not within a capture. `open_capacity` is that of
     /// async_result. Does not wait. Throws std::bad_alloc, cuda_error.
     template <works_in<Space> Policy>
-    explicit async_value(const Policy& policy, std::uint64_t open_capacity = execution::most_open)
+    explicit async_value(const Policy& policy, std::uint64_t open_capacity = detail::most_open_of<T>)
         : room_(policy, open_capacity) {}
 
     /// In device memory.
@@ -328,8 +344,10 @@ private:
 /// A policy's stream as who answers a query, and where it leaves its outcome there: an `async_value` of `bool` for `any` and
 /// the like, of `std::uint64_t` for numbers, an `async_result` for lists. The query returns nothing, and does not wait.
 /// Queries of pairs of two arguments, or of one alone, take it: any, count, pairs, contacts, within, self_pairs and the others
-/// of these: `abut::within(abut::async(on, near), a, b, 0.01)`, where `near` is an `async_result<index_pair>`. Both have to
-/// live as long as the call.
+/// of these: `abut::within(abut::async(on, near), a, b, 0.01)`, where `near` is an `async_result<index_pair>`. So do impacts and
+/// first_impact of impact indices, with an `async_result` of `impact` (the first is a list of one, or of none); safe_step, with
+/// an `async_value<double>`; nearest, raycast and raycast_any, with an `async_result` of what they answer and room for each row;
+/// and their like within one mesh. `refit` takes it with an async_index. Both have to live as long as the call.
 template <execution_policy Policy, class Outcome>
 class async {
 public:
@@ -364,10 +382,7 @@ void ask_pairs(const async<Policy, Outcome>& stream, const Question& question, c
         if constexpr (requires { question.answer.discard_sideways; }) {
             if (question.answer.discard_sideways) throw error(name + ": contacts are discarded by calls that wait");
         }
-        if (into.device() != device_of(on)) {
-            throw error(name + ": the result lies on device " + std::to_string(into.device()) +
-                        ", the policy works on device " + std::to_string(device_of(on)));
-        }
+        check_outcome(on, into, name);
         const auto pairing = form.template pair_up<input::trusted>(on, question.relation, options, false, name.c_str());
         auto& room = async_parts::room(into);
         room.again = [on, pairing, question] { return question.find(on, pairing); };

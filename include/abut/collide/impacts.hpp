@@ -157,6 +157,14 @@ struct split_hits {
     }
 };
 
+template <class View>
+ABUT_HD impact<typename View::scalar_type> impact_of(const View& both, std::uint64_t key, double time) {
+    impact<typename View::scalar_type> made;
+    made.kind = both.key.kind(key);
+    both.write_vertices(key, reinterpret_cast<std::uint32_t*>(&made.vertices));
+    made.time = time;
+    return made;
+}
 /// Writes impact i; hands on i where its time is not known.
 template <class View>
 struct write_impact {
@@ -169,11 +177,7 @@ struct write_impact {
     ABUT_CALLS_ANY
     template <class Open>
     ABUT_HD void operator()(std::size_t i, Open& open) const {
-        impact<T> made;
-        made.kind = both.key.kind(keys[i]);
-        both.write_vertices(keys[i], reinterpret_cast<std::uint32_t*>(&made.vertices));
-        made.time = times[i];
-        out[i] = made;
+        out[i] = impact_of(both, keys[i], times[i]);
         if (times[i] == time_in_bits::unknown) open.push(i);
     }
 };

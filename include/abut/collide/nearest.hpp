@@ -456,18 +456,12 @@ struct ask_nearest : question_of_points {
     }
     template <class Policy, class X, class Points>
     auto at_once(const Policy& on, const X& x, const Points& points, double largest) const {
-        const auto there = x.shapes();
-        const auto from = points.shapes();
-        using shapes_type = std::remove_const_t<decltype(there)>;
-        using points_type = std::remove_const_t<decltype(from)>;
-        using T = typename points_type::scalar_type;
+        using T = typename decltype(points.shapes())::scalar_type;
+        using row = found<T, operand_id<X>>;
         const auto unit = unit_of_magnitude<T>(largest);
         const auto finish = [&](const std::uint32_t* order, const execution::least_value* near) {
-            using row = found<T, operand_id<X>>;
-            execution::buffer_of<Policy, row> out(on, from.size() * count);
-            for_each_index(
-                on, out.size(),
-                write_neighbors<row, shapes_type, points_type>{there, from, unit, order, near, out.data(), count});
+            execution::buffer_of<Policy, row> out(on, points.shapes().size() * count);
+            write(on, x, points, unit, order, near, out.data());
             synchronize(on);
             return result<row, space_of<Policy>>(std::move(out));
         };
@@ -478,9 +472,41 @@ struct ask_nearest : question_of_points {
             return look_for_nearest(on, x, points, unit, finish);
         }
     }
+    /// Whether the unit does not have to be found out first.
+    template <scalar T>
+    static constexpr bool takes_in_stream = std::same_as<T, float>;
+    template <class Policy, class X, class Points, class Row>
+    void in_stream(const Policy& on, const X& x, const Points& points, Row* out) const {
+        const auto from = points.shapes();
+        const length_unit<float> unit{};
+        const auto finish = [&](const std::uint32_t* order, const execution::least_value* near) {
+            write(on, x, points, unit, order, near, out);
+        };
+        if constexpr (Few) {
+            look_for_nearest_few(on, x, points, unit, count, finish, shapes_wanted<false>(filter, points));
+        } else if (from.size() == 0 || x.shapes().size() == 0) {
+            finish(nullptr, nullptr);
+        } else {
+            // Each alone: groups need the host between their kernels.
+            const auto order = order_of_points<X>(on, from);
+            execution::best_of_each<space_of<Policy>> best(on, from.size());
+            walk_alone_from_points(on, x, from, measure_distance<float>{unit}, order.data(), best);
+            finish(order.data(), best.data());
+        }
+    }
     template <scalar T>
     [[nodiscard]] nearest_in_parts<T, Filter> in_parts(double largest) const {
         return {unit_of_magnitude<T>(largest), count, filter};
+    }
+
+private:
+    template <class Policy, class X, class Points, scalar T, class Row>
+    void write(const Policy& on, const X& x, const Points& points, const length_unit<T>& unit, const std::uint32_t* order,
+               const execution::least_value* near, Row* out) const {
+        const auto there = x.shapes();
+        const auto from = points.shapes();
+        using writer = write_neighbors<Row, std::remove_const_t<decltype(there)>, std::remove_const_t<decltype(from)>>;
+        for_each_index(on, from.size() * count, writer{there, from, unit, order, near, out, count});
     }
 };
 

@@ -351,6 +351,8 @@ ABUT_HD bool may_meet(const Line& line, const part_bounds<T>& part, double last)
 template <class Options, class Question>
 struct question_of_lines : row_question {
     static constexpr bool filters = has_filter<Options>;
+    template <scalar>
+    static constexpr bool takes_in_stream = true;
     Options options = {};
 
     template <class Policy, class X, class Lines, bool Whole>
@@ -403,17 +405,18 @@ struct ask_first_hit : question_of_lines<Options, ask_first_hit<A, Options>> {
 
     template <class Policy, class X, class Lines>
     auto at_once(const Policy& on, const X& x, const Lines& lines, double) const {
-        const auto both = lines_that_want(x, lines, this->options);
-        using hit = found<typename std::remove_const_t<decltype(both)>::T, operand_id<X>>;
-        execution::buffer_of<Policy, hit> out(on, both.size());
-        if (both.has_nothing()) {
-            fill(on, out.data(), both.size(), named_hit<hit>({}));
-        } else {
-            hits_of_each<hit, space_of<Policy>> best{out.data(), both.wanted.most()};
-            walk_to_first_hits<A>(on, both, true, best);
-        }
+        using hit = found<typename std::remove_cvref_t<decltype(x.shapes())>::scalar_type, operand_id<X>>;
+        execution::buffer_of<Policy, hit> out(on, lines.shapes().size());
+        in_stream(on, x, lines, out.data());
         synchronize(on);
         return result<hit, space_of<Policy>>(std::move(out));
+    }
+    template <class Policy, class X, class Lines, class Hit>
+    void in_stream(const Policy& on, const X& x, const Lines& lines, Hit* out) const {
+        const auto both = lines_that_want(x, lines, this->options);
+        if (both.has_nothing()) return fill(on, out, both.size(), named_hit<Hit>({}));
+        hits_of_each<Hit, space_of<Policy>> best{out, both.wanted.most()};
+        walk_to_first_hits<A>(on, both, true, best);
     }
     template <scalar T>
     [[nodiscard]] ask_first_hit in_parts(double) const {
@@ -451,6 +454,10 @@ struct ask_any_hit : question_of_lines<Options, ask_any_hit<A, Options>> {
         execution::buffer_of<Policy, answer> out(on, lines.shapes().size());
         ask(on, x, lines, same_key{}, out.data());
         return result<answer, space_of<Policy>>(std::move(out));
+    }
+    template <class Policy, class X, class Lines>
+    void in_stream(const Policy& on, const X& x, const Lines& lines, answer* out) const {
+        look_for_any_hits<A>(on, lines_that_want(x, lines, this->options), out);
     }
     template <scalar T>
     [[nodiscard]] ask_any_hit in_parts(double) const {

@@ -157,6 +157,8 @@ consteval bool is_row_filter() {
 /// What of a question is so for most of them.
 struct row_question {
     static constexpr bool filters = false;  ///< it has a filter that is given numbers of rows
+    template <scalar>
+    static constexpr bool takes_in_stream = false;
     template <class Policy, class X, class Rows>
     void check(const Policy&, const X&, const Rows&, const char* /*holder*/) const {}
     template <class Policy, class X, class Rows>

@@ -33,15 +33,25 @@ namespace abut {
 
 namespace detail {
 
-template <bool Within, class On, class X, class Y>
-double safe_step_of(const On& on, const X& a, const Y& b, const conservative_bounds& bounds, const char* function) {
+/// As ask_first_impact, to which it is a question for all but a stream (async_motion.hpp).
+template <bool Within>
+struct ask_safe_step {
+    static constexpr const char* function = Within ? "abut::safe_self_step" : "abut::safe_step";
+};
+/// The part of a step before the first contact, or up to where features come near.
+ABUT_HD inline double safe_part(double first, bool is_contact) {
+    return !is_contact ? first : first > last_time_bit ? first - last_time_bit : 0;
+}
+template <executor On, bool Within, class X, class Y>
+double ask_motion(const On& on, const ask_safe_step<Within>& question, const X& a, const Y& b,
+                  const conservative_bounds& bounds) {
     const impact_options options{.bounds = bounds};
     if (bounds.separation == 0) {
-        const auto first = ask_motion(on, ask_first_impact<filtered, Within>{function}, a, b, options);
-        return first ? std::max(first->time - last_time_bit, 0.0) : 1.0;
+        const auto first = ask_motion(on, ask_first_impact<filtered, Within>{question.function}, a, b, options);
+        return first ? safe_part(first->time, true) : 1;
     }
-    const auto first = ask_motion(on, ask_first_impact<conservative, Within>{function}, a, b, options);
-    return first ? first->time : 1.0;
+    const auto first = ask_motion(on, ask_first_impact<conservative, Within>{question.function}, a, b, options);
+    return first ? safe_part(first->time, false) : 1;
 }
 
 template <class S, class U>
@@ -160,14 +170,14 @@ auto safe_steps_of(const Policy& on, const X& a, const Y& b, const conservative_
 ///
 ///     const double t = abut::safe_step(on, step, ball, {.tolerance = 1e-3, .separation = 0.01f});
 template <executor On, class X, class Y>
-[[nodiscard]] double safe_step(const On& on, const X& a, const Y& b, const conservative_bounds& bounds = {}) {
-    return detail::safe_step_of<false>(on, a, b, bounds, "abut::safe_step");
+[[nodiscard]] auto safe_step(const On& on, const X& a, const Y& b, const conservative_bounds& bounds = {}) {
+    return ask_motion(on, detail::ask_safe_step<false>{}, a, b, bounds);
 }
 
 /// The same of one mesh with itself: of its features that share no vertex, as `first_self_impact`.
 template <executor On, class X>
-[[nodiscard]] double safe_self_step(const On& on, const X& x, const conservative_bounds& bounds = {}) {
-    return detail::safe_step_of<true>(on, x, x, bounds, "abut::safe_self_step");
+[[nodiscard]] auto safe_self_step(const On& on, const X& x, const conservative_bounds& bounds = {}) {
+    return ask_motion(on, detail::ask_safe_step<true>{}, x, x, bounds);
 }
 
 /// How far each vertex may go by itself: for each vertex of `a`, and for each of `b`, the part of its way, a double in [0,

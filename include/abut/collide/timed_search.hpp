@@ -172,6 +172,13 @@ struct try_gathered {
         if (of_vertex ? both.with_vertex(key, ask) : both.with_edges(key, ask)) open.push(key);
     }
 };
+/// Lanes of one warp that follow different roots wait for each other: few pairs are spread over many warps.
+template <class N>
+ABUT_HD N spread_of(N pairs) {
+    N spread = 1;
+    while (spread < 32 && pairs * spread <= N{1} << 15) spread *= 2;
+    return spread;
+}
 /// A lane in `spread` times one.
 template <class View, class Judge>
 struct time_gathered {
@@ -189,16 +196,14 @@ struct time_gathered {
     }
 };
 
-/// Times candidates that have been gathered. Lanes of one warp that follow different roots wait for each other: few are
-/// spread over many warps.
+/// Times candidates that have been gathered.
 template <class Policy, class View, class Judge>
 void time_candidates(const Policy& on, const View& both, const Judge& judge, const gathered_features& near,
                      timed_queue<Policy>& hits) {
     key_queue<Policy> open(on, std::max(near.count() / 8, std::size_t{1} << 16));
     for_each_index(on, near.count(), try_gathered<View, Judge>{both, judge, near}, open);
     const std::size_t n = open.size();
-    std::size_t spread = 1;
-    while (spread < 32 && n * spread <= std::size_t{1} << 15) spread *= 2;
+    const std::size_t spread = spread_of(n);
     for_each_index(on, n * spread, time_gathered<View, Judge>{both, judge, open.data(), spread}, hits);
 }
 

@@ -4,7 +4,8 @@
 // for_each_descendant of `cuda` by schedule::static_partition: rounds of two kernels. In the first each block works on its
 // own queue in the device's memory, with a stack in shared memory, until it has nothing; when enough blocks have nothing, or
 // as much as they can hold, the others leave as well, and write back what they have. The second deals all of that out
-// evenly. The host waits for each round, to learn whether anything is left. No block waits for another one.
+// evenly. The host waits for each round, to learn whether anything is left. No block waits for another one. Where nobody
+// waits (async_queue) there are some rounds, and a last one in which no block leaves before it has nothing: so there is an end.
 
 #include <algorithm>
 #include <cstddef>
@@ -23,6 +24,9 @@ namespace abut::execution {
 namespace detail {
 
 inline constexpr unsigned most_queues = 4096;
+/// Rounds of a loop that nobody waits for, before the last one. Scenes of cloth had up to six; what is left is done anyway, by
+/// fewer blocks, and a round without work takes some microseconds.
+inline constexpr int rounds_of_stream = 7;
 
 /// A queue of each block: `capacity` places, of which the first `counts` hold items.
 template <class Item>
@@ -188,28 +192,42 @@ std::uint64_t descend(const cuda& on, const scheduled<schedule::static_partition
         const round_limit limit{std::max(blocks / 2, 1u), 8, 1024};
         const unsigned dealers = blocks_for(std::max(seeds, blocks));
         deal_seeds_kernel<<<dealers, block_size, 0, on.stream>>>(now, blocks, seeds, state.data(), expand);
-        schedule_report report{.ran = schedule::static_partition, .workers = blocks};
-        std::uint64_t longest = 0;
-        for (;;) {
-            kernel<<<blocks, block_size, sizeof(memory), on.stream>>>(now, limit, state.data(), expand, judge, late_sink,
+        const auto run_round = [&](const round_limit& until) {
+            kernel<<<blocks, block_size, sizeof(memory), on.stream>>>(now, until, state.data(), expand, judge, late_sink,
                                                                       sinks...);
             check_launch("for_each_descendant");
-            round_state round{};
-            download(on, state.data(), 1, &round);
-            report.rounds += 1;
-            report.steps += round.steps;
-            report.items += round.items;
-            report.overflows += round.overflows;
-            longest += round.longest;
-            if (round.left == 0) break;
+        };
+        const auto balance = [&] {
             balance_kernel<<<blocks, block_size, 0, on.stream>>>(now, next, state.data());
             std::swap(now, next);
-            report.balances += 1;
-            report.transferred += round.left;
+        };
+        if constexpr (is_async_loop<Queues...>) {
+            for (int round = 0; round < rounds_of_stream; ++round) {
+                run_round(limit);
+                balance();
+            }
+            run_round({~0u, ~0u, ~0u});
+        } else {
+            schedule_report report{.ran = schedule::static_partition, .workers = blocks};
+            std::uint64_t longest = 0;
+            for (;;) {
+                run_round(limit);
+                round_state round{};
+                download(on, state.data(), 1, &round);
+                report.rounds += 1;
+                report.steps += round.steps;
+                report.items += round.items;
+                report.overflows += round.overflows;
+                longest += round.longest;
+                if (round.left == 0) break;
+                balance();
+                report.balances += 1;
+                report.transferred += round.left;
+            }
+            const double possible = static_cast<double>(longest) * blocks;
+            report.idle_share = possible > 0 ? 1 - static_cast<double>(report.steps) / possible : 0;
+            if (how.report != nullptr) *how.report = report;
         }
-        const double possible = static_cast<double>(longest) * blocks;
-        report.idle_share = possible > 0 ? 1 - static_cast<double>(report.steps) / possible : 0;
-        if (how.report != nullptr) *how.report = report;
     };
     return judge_and_finish<typename Expand::candidate>(on, any_number, judge, launch, queues...);
 }

@@ -306,6 +306,14 @@ public:
     [[nodiscard]] sink make_sink(std::uint64_t* count) { return {base::make_sink(count)}; }
 };
 
+/// A queue that counts on where `count` says, and not in the loop's word, which stays 0: so several loops fill it, one after
+/// another, and nobody waits between them. Whoever makes it zeroes the count.
+template <class Queue>
+struct counted_queue : Queue {
+    std::uint64_t* count;
+    [[nodiscard]] typename Queue::sink make_sink(std::uint64_t* = nullptr) { return Queue::make_sink(count); }
+};
+
 /// What a loop leaves open. Where one hit will do, the loop rests when there is enough to finish first.
 template <class T, bool AnyWillDo>
 class open_queue : public capped_queue<T, device_space> {

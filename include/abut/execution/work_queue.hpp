@@ -49,6 +49,8 @@ template <class T, memory_space Space>
 class capped_queue;
 template <class T, memory_space Space>
 class capped_queue_from_end;
+template <class Queue>
+struct counted_queue;
 
 /// Memory of a device for one loop that the host does not wait for. Candidates are numbers of 64 bits.
 struct async_loop {

@@ -187,6 +187,7 @@ struct standard_layout {
         /// Whether node k lies between leaves k and k + 1 of an order, as the linear builder makes them.
         bool along_curve = false;
         shared_least_ids<Space> least_ids = {};  ///< shared alike
+        bool is_refitted_in_place = false;       ///< its boxes change (collide/async_index.hpp)
 
         /// The view of a tree of so many shapes.
         [[nodiscard]] view<T, Space> view_of(std::size_t shapes) const { return {{nodes.data(), root.data(), shapes}}; }
@@ -289,17 +290,21 @@ public:
     /// For queries: what they find of copies.
     [[nodiscard]] kept_ties& ties() const { return parts_->ties; }
     /// The box around all shapes; empty where there are none. The first call on a tree in device memory copies it to the
-    /// host and waits for that.
+    /// host and waits for that; on a tree of an async_index each call does.
     [[nodiscard]] aabb<scalar_type> bounds() const {
-        std::call_once(parts_->once, [this] {
-            bvh_root<scalar_type> root{empty_box<scalar_type>(), {}};
-            stored().root.read(&root);
-            parts_->bounds = root.bounds;
-        });
+        if constexpr (requires { stored().is_refitted_in_place; }) {
+            if (stored().is_refitted_in_place) return read_bounds();
+        }
+        std::call_once(parts_->once, [this] { parts_->bounds = read_bounds(); });
         return parts_->bounds;
     }
 
 private:
+    [[nodiscard]] aabb<scalar_type> read_bounds() const {
+        bvh_root<scalar_type> root{empty_box<scalar_type>(), {}};
+        stored().root.read(&root);
+        return root.bounds;
+    }
     /// All of a tree: so a copy counts one owner, and not one for each part. Queries copy trees.
     struct parts {
         Set set;

@@ -311,9 +311,30 @@ struct refit_single {
     ABUT_HD void operator()(std::size_t) const { *root = {bounds(shapes[0]), bvh_child::leaf(0)}; }
 };
 
+/// The boxes of `fresh` around shapes, as many as `old` has, whose topology it has: it may be `old` itself. Does not wait
+/// where the topology has a plan.
+template <class Policy, class Storage, shape_view Shapes>
+void refit_boxes(const Policy& on, const Storage& old, const Shapes& shapes, Storage& fresh) {
+    using T = typename Shapes::scalar_type;
+    const std::size_t n = shapes.size();
+    if (n == 1) {
+        for_each_index(on, 1, refit_single<Shapes>{shapes, fresh.root.data()});
+    } else if (n > 1) {
+        using boxes = box_view<T, space_of<Policy>>;
+        if constexpr (host_policy<Policy> && !std::same_as<Shapes, boxes>) {
+            // A processor waits for what it reads out of order: a box is one line of memory, a mesh's triangle up to four.
+            execution::buffer_of<Policy, aabb<T>> made(on, n);
+            for_each_index(on, n, write_box<Shapes>{shapes, made.data()});
+            refit_nodes(on, boxes{made.data(), n}, old, fresh);
+        } else {
+            refit_nodes(on, shapes, old, fresh);
+        }
+    }
+}
+
 /// A tree of the topology of `old` around other shapes, as many. Waits for it.
 template <class Policy, class Storage, shape_view Shapes>
-std::shared_ptr<const Storage> refit_storage(const Policy& on, const Storage& old, const Shapes& shapes) {
+std::shared_ptr<Storage> refit_storage(const Policy& on, const Storage& old, const Shapes& shapes) {
     using T = typename Shapes::scalar_type;
     const std::size_t n = shapes.size();
     auto fresh = std::make_shared<Storage>();
@@ -322,19 +343,7 @@ std::shared_ptr<const Storage> refit_storage(const Policy& on, const Storage& ol
     fresh->plan = old.plan;
     fresh->least_ids = old.least_ids;
     fresh->along_curve = old.along_curve;
-    if (n == 1) {
-        for_each_index(on, 1, refit_single<Shapes>{shapes, fresh->root.data()});
-    } else if (n > 1) {
-        using boxes = box_view<T, space_of<Policy>>;
-        if constexpr (host_policy<Policy> && !std::same_as<Shapes, boxes>) {
-            // A processor waits for what it reads out of order: a box is one line of memory, a mesh's triangle up to four.
-            execution::buffer_of<Policy, aabb<T>> made(on, n);
-            for_each_index(on, n, write_box<Shapes>{shapes, made.data()});
-            refit_nodes(on, boxes{made.data(), n}, old, *fresh);
-        } else {
-            refit_nodes(on, shapes, old, *fresh);
-        }
-    }
+    refit_boxes(on, old, shapes, *fresh);
     synchronize(on);
     return fresh;
 }
