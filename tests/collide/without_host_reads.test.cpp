@@ -11,7 +11,6 @@
 #include "collide/contact_cases.hpp"
 #include "collide/hull_cases.hpp"
 #include "collide/set_cases.hpp"
-#include "collide/turning_cases.hpp"
 #include "support/catch.hpp"
 #include "support/fenced.hpp"
 #include "support/scenes.hpp"
@@ -73,8 +72,5 @@ TEST_CASE("queries: memory that only loops may read, and the host resolves") {
     const posed_view<hulls<double>::view_type> placed{solids.view(), pose};
     CHECK(to_host(pairs(on, there, posed(there, pose))) == test::all_that_touch(solids.view(), placed));
 }
-
-// As on a device, several share an entry.
-TEST_CASE("meetings of bodies that turn: memory that only loops may read") { test::check_turning_triangles<float>(test::fenced{}, 24); }
 
 TEST_CASE("queries: hulls in memory that only loops may read") { test::check_hulls<float>(test::fenced{}); }

@@ -67,41 +67,23 @@ struct turning_entry {
     int looks = 0;            ///< how often it pays to look whether anything touches at a time
 };
 
-/// What a share of an entry's walk finds first, or whether it finds any. All shares of an entry know the least time so far.
+/// The first of an entry, or any.
 template <bool Any, class IndexA, class IndexB>
-struct first_of_share {
+struct first_of_entry {
     const placed_object<IndexA>* objects_a;
     const placed_object<IndexB>* objects_b;
     const std::uint32_t *object_of_a, *object_of_b;
     const turning_entry* entries;
     double tolerance;
-    std::uint32_t shares;       ///< of each entry; 1 for all at once
-    std::uint64_t* least_time;  ///< of each entry, as bits, which are in the order of times; null where shares is 1
-    meeting* out;
-
-    using walk_type = turning_walk<decltype(placed_object<IndexA>::tree), decltype(placed_object<IndexB>::tree)>;
 
     struct best_so_far {
-        std::uint64_t* shared;
         meeting found{infinity<double>, no_id, no_id, infinity<double>};
-        /// Negative where nothing is looked for any more.
-        [[nodiscard]] ABUT_HD double until() const {
-            double time = found.time < 1 ? found.time : 1;
-            if (shared != nullptr) {
-                const double of_all = ABUT_BIT_CAST(double, execution::atomic_load(shared));
-                if (Any && of_all <= 1) return -1;
-                if (of_all < time) time = of_all;
-            }
-            return time;
-        }
+        [[nodiscard]] ABUT_HD double until() const { return found.time < 1 ? found.time : 1; }
         [[nodiscard]] ABUT_HD bool may_come_first(double time, std::uint32_t a, std::uint32_t b) const {
             return time < found.time || (time == found.time && (a < found.a || (a == found.a && b < found.b)));
         }
         ABUT_HD bool offer(const turning_time& t, std::uint32_t a, std::uint32_t b) {
-            if (t.time <= 1 && may_come_first(t.time, a, b)) {
-                found = {t.time, a, b, t.distance};
-                if (shared != nullptr) execution::atomic_min(shared, ABUT_BIT_CAST(std::uint64_t, t.time));
-            }
+            if (t.time <= 1 && may_come_first(t.time, a, b)) found = {t.time, a, b, t.distance};
             return !Any || !(found.time <= 1);
         }
     };
@@ -110,23 +92,17 @@ struct first_of_share {
         bool touch = false;
         [[nodiscard]] ABUT_HD double until() const { return time; }
     };
-    ABUT_HD void operator()(std::size_t i) const {
-        const std::size_t entry = i / shares;
-        const std::uint32_t share = shares == 1 ? walk_type::all_shares : static_cast<std::uint32_t>(i % shares);
-        out[i] = find(entry, share, best_so_far{least_time == nullptr ? nullptr : least_time + entry});
-    }
-
-private:
-    [[nodiscard]] ABUT_HD meeting find(std::size_t i, std::uint32_t share, best_so_far best) const {
+    [[nodiscard]] ABUT_HD meeting operator()(std::size_t i) const {
         const placed_object<IndexA>& a = objects_a[object_of_a[i]];
         const placed_object<IndexB>& b = objects_b[object_of_b[i]];
         const turning_pair& both = entries[i].both;
-        const walk_type walk{a.tree, b.tree};
+        best_so_far best;
+        const turning_walk<decltype(a.tree), decltype(b.tree)> walk{a.tree, b.tree};
         if constexpr (Any) {
             // Of ways that are long for their bodies what touches at a time or two is sooner found than what meets first.
             constexpr float times[] = {1, 0.5f, 0.25f, 0.75f};
             const int looks = entries[i].looks;
-            for (int k = 0; k < looks && !(best.until() < 0); ++k) {
+            for (int k = 0; k < looks; ++k) {
                 only_at instant{static_cast<double>(times[k])};
                 walk(
                     both, entries[i].bounds, 0, instant,
@@ -134,42 +110,29 @@ private:
                         instant.touch = touch_at_time(a.shapes[id_a], b.shapes[id_b], both, tolerance, instant.time);
                         return !instant.touch;
                     },
-                    times[k], share);
-                if (instant.touch) {
-                    (void)best.offer({instant.time, 0}, 0, 0);
-                    return best.found;
-                }
+                    times[k]);
+                if (instant.touch) return {instant.time, 0, 0, 0};
             }
         }
-        walk(
-            both, entries[i].bounds, tolerance, best,
-            [&](std::uint32_t id_a, std::uint32_t id_b, double from) {
-                if (!best.may_come_first(from, id_a, id_b)) return true;
-                return best.offer(turning_time_of(a.shapes[id_a], b.shapes[id_b], both, tolerance, from, best.until()), id_a,
-                                  id_b);
-            },
-            0, share);
+        walk(both, entries[i].bounds, tolerance, best, [&](std::uint32_t id_a, std::uint32_t id_b, double from) {
+            if (!best.may_come_first(from, id_a, id_b)) return true;
+            return best.offer(turning_time_of(a.shapes[id_a], b.shapes[id_b], both, tolerance, from, best.until()), id_a,
+                              id_b);
+        });
         return best.found;
     }
 };
-/// The first of all shares, or whether there is one.
-template <class Answer>
+/// A meeting, or whether there is one.
+template <class Answer, class IndexA, class IndexB>
 struct write_meetings {
-    const meeting* found;
-    std::uint32_t shares;
+    first_of_entry<std::same_as<Answer, std::uint8_t>, IndexA, IndexB> first;
     Answer* out;
     ABUT_HD void operator()(std::size_t i) const {
-        meeting first = found[i * shares];
-        for (std::uint32_t k = 1; k < shares; ++k) {
-            const meeting& other = found[i * shares + k];
-            if (other.time < first.time ||
-                (other.time == first.time && (other.a < first.a || (other.a == first.a && other.b < first.b))))
-                first = other;
-        }
+        const meeting found = first(i);
         if constexpr (std::same_as<Answer, meeting>) {
-            out[i] = first;
+            out[i] = found;
         } else {
-            out[i] = first.time <= 1;
+            out[i] = found.time <= 1;
         }
     }
 };
@@ -239,19 +202,12 @@ auto meetings_of(const Policy& on, const std::vector<moving_pair<IndexA, IndexB>
     const auto objects_b = make_objects(on, of_b.indices, of_b.object_of, function.c_str());
     execution::buffer_of<Policy, turning_entry> there(on, n);
     upload(on, entries.data(), n, there.data());
-    // A device has too few entries for its threads: several share one.
-    using find = first_of_share<std::same_as<Answer, std::uint8_t>, IndexA, IndexB>;
-    constexpr std::size_t most_shared = std::size_t{1} << 15;
-    const std::uint32_t shares = host_policy<Policy> || n > most_shared ? 1 : find::walk_type::most_shares;
-    execution::buffer_of<Policy, std::uint64_t> least_time(on, shares == 1 ? 0 : n);
-    fill(on, least_time.data(), least_time.size(), ABUT_BIT_CAST(std::uint64_t, infinity<double>));
-    execution::buffer_of<Policy, meeting> found(on, n * shares);
-    for_each_task(on, n * shares,
-                  find{objects_a->objects.data(), objects_b->objects.data(), objects_a->object_of.data(),
-                       objects_b->object_of.data(), there.data(), options.tolerance, shares,
-                       shares == 1 ? nullptr : least_time.data(), found.data()});
     execution::buffer_of<Policy, Answer> out(on, n);
-    for_each_index(on, n, write_meetings<Answer>{found.data(), shares, out.data()});
+    using write = write_meetings<Answer, IndexA, IndexB>;
+    for_each_task(on, n,
+                  write{{objects_a->objects.data(), objects_b->objects.data(), objects_a->object_of.data(),
+                         objects_b->object_of.data(), there.data(), options.tolerance},
+                        out.data()});
     synchronize(on);
     return out;
 }
@@ -329,8 +285,7 @@ inline constexpr bool is_scene = requires {
 ///
 /// @par Memory
 /// Indices lie in the policy's memory, the list in host memory. The call copies 550 bytes an entry to the policy's memory,
-/// and needs 32 bytes more as it works, and 8 KB a thread (14 KB with `wide` trees). One thread walks an entry. Of lists of up to
-/// 32,768 entries a device has 64 threads for each (16 with `wide` trees), which take 2 KB more.
+/// and needs no more as it works but 8 KB a thread (14 KB with `wide` trees). One thread walks an entry.
 ///
 /// @par Errors
 /// - `error`, whose message names the entry: the tolerance is not above 0, or below what doubles tell of bodies and ways

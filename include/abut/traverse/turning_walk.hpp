@@ -13,7 +13,6 @@
 #include <abut/shape/turning_reach.hpp>
 #include <abut/traverse/ordered_walk.hpp>
 #include <abut/traverse/pair_walk.hpp>
-#include <abut/traverse/seeds.hpp>
 
 namespace abut::detail {
 
@@ -36,18 +35,15 @@ struct turning_walk {
         }
     };
 
-    /// With `share` the part of it below a pair of nodes; all shares, up to most_shares, are all of it.
     ABUT_CALLS_ANY
     template <class Best, class Visitor>
     ABUT_HD void operator()(const turning_pair& both, const turning_bounds& bounds, double far, const Best& best,
-                            const Visitor& visitor, float begin = 0, std::uint32_t share = all_shares) const {
+                            const Visitor& visitor, float begin = 0) const {
         if (a.size() == 0 || b.size() == 0) return;
         step<Best, Visitor> one{*this, both, bounds, far, best, visitor};
         heap waiting;
-        const bool is_all = share == all_shares;
-        const side<A> at_a{a, is_all ? root_of(a) : link_of_share(a, share % shares_of<A>)};
-        const side<B> at_b{b, is_all ? root_of(b) : link_of_share(b, share / shares_of<A>)};
-        if (at_a.link == nowhere || at_b.link == nowhere) return;
+        const side<A> at_a{a, root_of(a)};
+        const side<B> at_b{b, root_of(b)};
         one.keep({at_a.link, at_b.link, begin, 0}, turned_box(at_a.box(), both.a.centre),
                  turned_box(at_b.box(), both.b.centre), waiting);
         while (waiting.count > 0) {
@@ -67,29 +63,12 @@ struct turning_walk {
     }
 
 private:
-    /// How many nodes of a tree shares begin at: those of a depth.
-    template <class Tree>
-    static constexpr int depth_of_shares = Tree::width > 2 ? 1 : 3;
-    template <class Tree>
-    static constexpr std::uint32_t shares_of = Tree::width > 2 ? Tree::width : 8;
-
-public:
-    static constexpr std::uint32_t most_shares = shares_of<A> * shares_of<B>, all_shares = most_shares;
-
-private:
     static constexpr int width = A::width > B::width ? A::width : B::width;
-    static constexpr std::uint32_t whole = static_cast<std::uint32_t>(-1),  ///< the leaf of a tree of one shape
-        nowhere = static_cast<std::uint32_t>(-2);                           ///< below no node
+    static constexpr std::uint32_t whole = static_cast<std::uint32_t>(-1);  ///< the leaf of a tree of one shape
 
     template <class Tree>
     ABUT_HD static std::uint32_t root_of(const Tree& tree) {
         return tree.root().is_leaf() ? whole : tree.root().index();
-    }
-    template <class Tree>
-    ABUT_HD static std::uint32_t link_of_share(const Tree& tree, std::uint32_t path) {
-        if (tree.root().is_leaf()) return path == 0 ? whole : nowhere;
-        const std::uint32_t link = descent_path<Tree>{tree, depth_of_shares<Tree>}.end(path);
-        return link == descent_path<Tree>::nowhere ? nowhere : link;
     }
     /// One half of a pair.
     template <class Tree>
