@@ -35,3 +35,31 @@ def solids(results):
                      whole(of("related")), whole(of("wrong"))])
     lines += table(["scene", "faces each", "touching_bodies, ms", "relation, ms", "not disconnected", "wrong"], rows)
     return lines + made_on(r)
+
+
+@in_table("device-queries")
+def device_queries(results):
+    """What bench/solids.cu, sweep.cu, turning.cu and arm.cu measure, each of its own run."""
+    solids, sweep, turning, arm = (results[f"cuda/{name}"] for name in ("solids", "sweep", "turning", "arm"))
+    rows = []
+    for key, title in (("pairs", "`pairs`"), ("crossings", "`crossings`"), ("any", "`any`"), ("overlaps", "`overlaps`"), ("relation", "`relation`")):
+        rows.append([title, "two scans of 345,944 faces that cross", "1", shown(solids.get(f"{key}/cuda")),
+                     whole(solids.get(f"{key}/cuda", "differ")) if key == "crossings" else ""])
+    for rays, title in (("coherent", "along a camera's rays"), ("scattered", "along scattered rays")):
+        ray = sweep.get(f"raycast/{rays}/cuda")
+        rows.append(["`raycast`", f"segments {title}, at a scan", whole(sweep.get(f"raycast/{rays}/cuda", "items")), shown(ray), ""])
+        for shapes in ("balls", "capsules"):
+            name = f"sweep/{rays}/{shapes}/cuda"
+            rows.append([f"`sweep`, {sweep.get(name) / ray:,.1f} of `raycast`", f"{shapes} {title}, at a scan", whole(sweep.get(name, "items")),
+                         shown(sweep.get(name)), whole(sweep.get(name, "differ"))])
+    for kind, title in (("short", "edges of a road map"), ("long", "to any pose, begin free"), ("anywhere", "from any pose to any other")):
+        for name, title_of in (("cuda", "`first_meetings`"), ("cuda_any", "`any_each`")):
+            key = f"{kind}/{name}"
+            rows.append([title_of, f"a robot in a room: {title}", whole(turning.get(key, "items")), shown(turning.get(key)),
+                         whole(turning.get(key, "differ")) if name == "cuda" else ""])
+    for where, title in (("room", "a room of 100 boxes"), ("mesh", "a mesh of 20,000 triangles")):
+        key = f"states/{where}/cuda"
+        rows.append(["`any_each`", f"states of an arm of eight links in {title}", whole(arm.get(key, "items")), shown(arm.get(key)),
+                     whole(arm.get(key, "wrong"))])
+    head = ["query", "scene", "questions in one call", "ms", "answers that differ from the host's"]
+    return table(head, rows, 2) + made_on(solids)

@@ -103,6 +103,10 @@ cuda devices_divided bench_devices_large_cuda {} 1000000
 cuda nearest bench_nearest_cuda --mesh=@D@/meshes/armadillo_345944.ply {}
 cuda distance bench_distance_cuda --meshes=@D@/meshes {}
 cuda raycast bench_raycast_cuda {} @D@/meshes/armadillo_345944.ply
+cuda sweep bench_sweep_cuda {} @D@/meshes/armadillo_345944.ply
+cuda solids bench_solids_cuda {} @D@/meshes/armadillo_345944.ply
+cuda turning bench_turning_cuda @D@ {}
+cuda arm bench_arm_cuda {}
 cuda bodies bench_bodies_cuda {}
 cuda validate bench_validate_cuda {}
 cuda meshes bench_meshes_cuda {} @D@/meshes/armadillo_345944.ply @D@/meshes/armadillo_2766.ply

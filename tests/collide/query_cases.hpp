@@ -300,7 +300,7 @@ template <class T, class Policy>
 void check_dense(const Policy& on, std::size_t n) {
     const triangle_soup<T> soup = coplanar_triangles<T>(n);
     std::uint64_t expected = 0, sum = 0;
-    for (const index_pair& p : to_host(pairs(serial{}, soup, soup))) {
+    for (const index_pair& p : to_host(pairs(openmp{}, soup, soup))) {
         ++expected;
         sum += std::uint64_t{p.a} << 20 | p.b;
     }

@@ -54,10 +54,11 @@ TEST_CASE("queries: in a .cu file host policies take functors of the host, and c
     abut::test::check_visits(on, soup, soup, soup.size(), soup.size(), expected);
 }
 
-/// More pairs than may wait on a device to be finished (execution::most_open).
+/// More pairs than there is room for at first, and than may wait on a device to be finished (execution::most_open).
 TEST_CASE("queries: pairs that a first try leaves open, cuda") {
-    static_assert(1800 * 1800 / 2 > abut::execution::most_open / 2);
+    static_assert(2100 * 2100 / 2 > abut::execution::most_open_at_first && 4200 * 4200 / 2 > abut::execution::most_open);
     abut::test::check_dense<float>(abut::cuda{}, 100);
-    abut::test::check_dense<float>(abut::cuda{}, 1800);
-    abut::test::check_dense<double>(abut::cuda{}, 1800);
+    abut::test::check_dense<float>(abut::cuda{}, 2100);
+    abut::test::check_dense<double>(abut::cuda{}, 2100);
+    abut::test::check_dense<float>(abut::cuda{}, 4200);
 }

@@ -132,6 +132,7 @@ public:
     /// In memory of the caller's.
     capped_queue(T* room, std::size_t capacity) : items_(room), capacity_(capacity) {}
     [[nodiscard]] std::uint64_t pushed() const { return pushed_; }
+    [[nodiscard]] std::uint64_t capacity() const { return capacity_; }
     [[nodiscard]] const T* data() const { return items_; }
     [[nodiscard]] sink make_sink() { return {}; }
     template <class Policy>

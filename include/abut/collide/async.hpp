@@ -181,7 +181,7 @@ struct answer_found {
 
 /// Candidates that a result of this type lets wait by itself.
 template <class T>
-inline constexpr std::uint64_t most_open_of = execution::most_open;
+inline constexpr std::uint64_t most_open_of = execution::most_open_at_first;
 template <>
 inline constexpr std::uint64_t most_open_of<double> = std::uint64_t{1} << 23;
 

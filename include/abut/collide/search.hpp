@@ -5,7 +5,7 @@
 // of execution/work_queue.hpp). A search judges all candidates of a pairing and leaves what it finds in a sink.
 //
 // What a judge's first try leaves open waits in room of a fixed size: 256 pairs of a thread of the host, which finishes them
-// when they are so many, and some million pairs of a device, which has a kernel for them. So memory does not grow with the
+// when they are so many, and up to eight million pairs of a device, which has a kernel for them. So memory does not grow with the
 // number of pairs. Pairs whose coordinates are too far apart for integers in registers (2^124 in one pair) are resolved on
 // the host.
 
@@ -13,6 +13,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <new>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -147,8 +148,9 @@ private:
     void run(const Loop& loop, part_of_open part) const {
         key_judge<View, Judge> judge = judge_;
         judge.part = part;
-        execution::capped_queue<std::uint64_t, space_of<Policy>> hard(on_, execution::most_open);
+        execution::capped_queue<std::uint64_t, space_of<Policy>> hard(on_, execution::most_open_at_first);
         const std::uint64_t unfinished = loop(judge, hits_, hard);
+        if (hard.pushed() > hard.capacity()) throw std::bad_alloc();
         if (unfinished == 0) {
             return resolve_on_host(on_, judge.both, judge.judge, hard.data(), hard.pushed(), most_pairs_, hits_);
         }

@@ -43,6 +43,21 @@ public:
         }
         return memory_;
     }
+    /// The same, if the device has so much; else all stays as it is. Returns for how many bytes there is room.
+    std::size_t grow(int device, std::size_t bytes) {
+        if (bytes > bytes_) {
+            const current_device scope(device);
+            void* more = nullptr;
+            const std::size_t size = std::bit_ceil(bytes);
+            if (cudaMalloc(&more, size) == cudaSuccess) {
+                cudaFree(std::exchange(memory_, more));
+                bytes_ = size;
+            } else {
+                cudaGetLastError();  // the refusal is an answer, and no error of the next call
+            }
+        }
+        return bytes_;
+    }
 
 private:
     void* memory_ = nullptr;
@@ -260,34 +275,49 @@ private:
     bool overflowed_ = false;
 };
 
-/// The first values of many: those that find room stay, all are counted, and no loop runs again for their sake.
+/// The first values of many: those that find room stay, and all are counted. In memory of its own it grows up to `most` values,
+/// for whose sake the loop runs again.
 template <class T>
 class capped_queue<T, device_space> {
 public:
     using sink = typename work_queue<T, device_space>::sink;
 
     /// Two queues of one thread and one `use` share their memory (detail::kept_room).
-    capped_queue(const cuda& on, std::size_t capacity, int use = 1) : capacity_(capacity) {
-        const int device = device_of(on);
-        const std::size_t bytes = std::max(capacity * sizeof(T), std::size_t{1} << 20);
-        items_ = static_cast<T*>(detail::loop_counters::of_this_thread(device).room(use).at_least(device, bytes));
+    capped_queue(const cuda& on, std::uint64_t capacity, int use = 1, std::uint64_t most = most_open)
+        : use_(use), most_(most) {
+        (void)room(on).at_least(device_of(on), std::max(capacity * sizeof(T), std::size_t{1} << 20));
+        take_room(on, 0);
     }
     /// In memory of the caller's, which has to outlive it.
-    capped_queue(T* room, std::size_t capacity) : items_(room), capacity_(capacity) {}
+    capped_queue(T* room, std::uint64_t capacity) : most_(capacity), items_(room), capacity_(capacity) {}
     /// Number of values that were pushed.
     [[nodiscard]] std::uint64_t pushed() const { return pushed_; }
-    [[nodiscard]] std::size_t capacity() const { return capacity_; }
+    [[nodiscard]] std::uint64_t capacity() const { return capacity_; }
     [[nodiscard]] const T* data() const { return items_; }
 
     [[nodiscard]] sink make_sink(std::uint64_t* count) { return {items_, capacity_, count}; }
-    [[nodiscard]] bool has_room(std::uint64_t) const { return true; }
+    [[nodiscard]] bool has_room(std::uint64_t count) const { return count <= capacity_ || capacity_ >= most_; }
     void take_in(std::uint64_t count) { pushed_ = count; }
-    void make_room(const cuda&, std::uint64_t) {}
+    void make_room(const cuda& on, std::uint64_t count) {
+        if (has_room(count)) return;
+        take_room(on, std::min(count, most_));
+        if (count > capacity_) most_ = capacity_;  // the device has no more, or none is to be had
+    }
 
 private:
-    T* items_;
-    std::size_t capacity_;
-    std::uint64_t pushed_ = 0;
+    [[nodiscard]] detail::kept_room& room(const cuda& on) const {
+        return detail::loop_counters::of_this_thread(device_of(on)).room(use_);
+    }
+    /// What there is, and at least `values` if the device has it.
+    void take_room(const cuda& on, std::uint64_t values) {
+        capacity_ = std::min<std::uint64_t>(room(on).grow(device_of(on), values * sizeof(T)) / sizeof(T), most_);
+        items_ = static_cast<T*>(room(on).at_least(device_of(on), 0));
+    }
+
+    int use_ = 0;
+    std::uint64_t most_;
+    T* items_ = nullptr;
+    std::uint64_t capacity_ = 0, pushed_ = 0;
 };
 
 /// The same, filled from the end of the caller's memory on: two share one room, of which nobody knows how much each needs.
@@ -314,11 +344,12 @@ struct counted_queue : Queue {
     [[nodiscard]] typename Queue::sink make_sink(std::uint64_t* = nullptr) { return Queue::make_sink(count); }
 };
 
-/// What a loop leaves open. Where one hit will do, the loop rests when there is enough to finish first.
+/// What a loop leaves open. Where one hit will do, the loop rests when there is enough to finish first. Where more is left open
+/// than has room, the loop runs again with as much room as that takes, up to most_open values.
 template <class T, bool AnyWillDo>
 class open_queue : public capped_queue<T, device_space> {
     using base = capped_queue<T, device_space>;
-    static constexpr std::uint64_t most = most_open, enough = std::uint64_t{1} << 14;
+    static constexpr std::uint64_t enough = std::uint64_t{1} << 14;
 
 public:
     struct sink : base::sink {
@@ -327,7 +358,8 @@ public:
     };
 
     /// For a loop over no more than `pairs` candidates.
-    open_queue(const cuda& on, std::uint64_t pairs) : base(on, pairs < most ? pairs : most, 0) {}
+    open_queue(const cuda& on, std::uint64_t pairs)
+        : base(on, std::min(pairs, most_open_at_first), 0, std::min(pairs, most_open)) {}
     /// In memory of the caller's, for a loop that never rests.
     open_queue(T* room, std::uint64_t capacity) : base(room, capacity), patient_(true) {}
 

@@ -70,8 +70,9 @@ inline constexpr bool is_async = false;
 template <class Queue>
 inline constexpr bool is_async<async_queue<Queue>> = true;
 
-/// Values that may wait on a device to be finished, 8 bytes each as a rule.
-inline constexpr std::uint64_t most_open = std::uint64_t{1} << 21;
+/// Values that may wait on a device to be finished, 8 bytes each as a rule. There is room for so many at first, and where more are
+/// left open the loop runs again with more.
+inline constexpr std::uint64_t most_open_at_first = std::uint64_t{1} << 21, most_open = std::uint64_t{1} << 23;
 
 ABUT_CALLS_ANY
 template <class Sink>
