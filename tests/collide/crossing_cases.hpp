@@ -138,6 +138,23 @@ void check_crossings(const Policy& on) {
         CHECK(expected.size() > 300);
         CHECK(to_host(crossings(on, copy_to(on, x), make_bvh(on, copy_to(on, y)))) == expected);
     }
+    {  // In one plane, and of no lattice: polygons with sides of both, which compilers for devices got in the wrong order.
+        std::vector<triangle<T>> flat;
+        for (int i = 0; i < 60; ++i) {
+            const auto corner = [&] {
+                const T u = static_cast<T>(d.uniform(-1, 1));
+                return vec3<T>{u, static_cast<T>(d.uniform(-1, 1)), 0};
+            };
+            const vec3<T> p = corner(), q = corner();
+            flat.push_back({p, q, corner()});
+        }
+        const triangle_soup<T> soup(flat);
+        const found_list expected = true_crossings(soup.view(), soup.view());
+        std::size_t polygons = 0;
+        for (const auto& c : expected) polygons += c.count > 3;
+        CHECK(polygons > 500);
+        CHECK(to_host(crossings(on, copy_to(on, soup), make_bvh(on, copy_to(on, soup)))) == expected);
+    }
     CHECK(crossings(on, copy_to(on, mesh<T>()), copy_to(on, ball)).size() == 0);
 }
 

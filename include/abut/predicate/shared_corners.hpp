@@ -145,7 +145,7 @@ struct flat_hull {
     [[nodiscard]] ABUT_HD constexpr int sides() const { return count == 3 ? 3 : count - 1; }
     [[nodiscard]] ABUT_HD constexpr int next(int i) const { return i + 1 == count ? 0 : i + 1; }
     [[nodiscard]] ABUT_HD constexpr place_in_triangle side(int i) const { return side_between(id[i], id[next(i)]); }
-    [[nodiscard]] ABUT_HD constexpr int side_of(int i, const flat_point<N>& p) const { return turn(at[i], at[next(i)], p); }
+    [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr int side_of(int i, const flat_point<N>& p) const { return turn(at[i], at[next(i)], p); }
 };
 
 template <class N>
