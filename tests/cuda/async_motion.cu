@@ -133,7 +133,7 @@ struct step_answers {
         for (const auto& i : near) least = std::min(least, i.time);
         const double value = read_state(on, apart).value;
         CHECK(value >= least);
-        CHECK(value <= safe_step(serial{}, x, y, {.tolerance = 1e-9, .separation = bounds.separation}) + 1e-9);
+        CHECK(value <= safe_step(serial{}, x, y, {.tolerance = 1e-6, .separation = bounds.separation}) + 1e-6);
         return with_itself.size() + with_other.size();
     }
 };
