@@ -125,15 +125,22 @@ struct step_answers {
         };
         check_first(first_itself, first_self_impact(serial{}, x));
         check_first(first_other, first_impact(serial{}, x, y));
-        CHECK(read_state(on, safe_itself).value == safe_self_step(serial{}, x));
-        CHECK(read_state(on, safe_other).value == safe_step(serial{}, x, y));
+        // A time that falls on a multiple of 2^-40 is one that kernels do not decide: then there is a bound in its place.
+        const auto check_safe = [&](const async_value<double>& found, double expected) {
+            const auto now = read_state(on, found);
+            CHECK(now.value <= expected);
+            CHECK((now.value == expected || (now.undecided == 1 && now.value >= expected - 2e-6)));
+            CHECK(wait(on, found) == expected);
+        };
+        check_safe(safe_itself, safe_self_step(serial{}, x));
+        check_safe(safe_other, safe_step(serial{}, x, y));
         // No earlier than the first of the list, and no later than one that is early by nothing.
         const impact_result near = to_host(impacts<conservative>(on, x, y, {.bounds = bounds}));
         double least = 1;
         for (const auto& i : near) least = std::min(least, i.time);
         const double value = read_state(on, apart).value;
         CHECK(value >= least);
-        CHECK(value <= safe_step(serial{}, x, y, {.tolerance = 1e-9, .separation = bounds.separation}) + 1e-9);
+        CHECK(value <= safe_step(serial{}, x, y, {.tolerance = 1e-6, .separation = bounds.separation}) + 1e-6);
         return with_itself.size() + with_other.size();
     }
 };
@@ -158,6 +165,8 @@ TEST_CASE("async motion: as calls that wait") {
         step_answers answers(on, 100'000);
         answers.ask(on, x, y);
         CHECK(answers.check(on, sheets.step(), ball) > 100);
+        CHECK(read_state(on, answers.safe_itself).undecided == 0);
+        CHECK(read_state(on, answers.safe_other).undecided == 0);
     }
 }
 
@@ -230,13 +239,17 @@ TEST_CASE("async motion: nothing, one face, and points alone") {
     const cuda on;
     const mesh<float> one({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, std::vector<face>{{0, 1, 2}});
     const mesh<float> dust(vertex_list{{1, 1, 1}, {9, 9, 9}}, std::vector<face>{}), none;
-    const auto falls = moving(dust, dust.with_vertices(serial{}, vertex_list{{1, 1, -3}, {9, 9, 5}}));
-    const auto x = make_impact_index(on, falls), y = make_impact_index(on, one), empty = make_impact_index(on, none);
     step_answers answers(on, 100);
-    answers.ask(on, x, y);
-    CHECK(answers.check(on, falls, one) == 1);
-    answers.ask(on, y, x);
-    CHECK(answers.check(on, moving(one, one), falls) == 1);
+    const auto y = make_impact_index(on, one), empty = make_impact_index(on, none);
+    for (const float z : {-2.0f, -3.0f}) {  // at a third of the way, and at a quarter
+        const auto falls = moving(dust, dust.with_vertices(serial{}, vertex_list{{1, 1, z}, {9, 9, 5}}));
+        const auto x = make_impact_index(on, falls);
+        answers.ask(on, x, y);
+        CHECK(answers.check(on, falls, one) == 1);
+        CHECK(read_state(on, answers.safe_other).undecided == (z == -2 ? 0u : 1u));
+        answers.ask(on, y, x);
+        CHECK(answers.check(on, moving(one, one), falls) == 1);
+    }
     answers.ask(on, y, empty);
     CHECK(answers.check(on, moving(one, one), none) == 0);
 }
