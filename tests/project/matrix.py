@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: MIT
 """Keeps docs/matrix.md true: which pair of shapes has which query, and which query takes which arguments.
 
-matrix.py check ROOT COMPILER [OPTION...]   the page says what compiles
-matrix.py write ROOT COMPILER [OPTION...]   writes it so
+matrix.py check ROOT COMPILER [OPTION...]       the page says what compiles; of executors for one query of each front
+matrix.py check-all ROOT COMPILER [OPTION...]   the same for all queries
+matrix.py write ROOT COMPILER [OPTION...]       writes it so
 
-Pairs of shapes are asked of the concepts that the queries ask (matrix.cpp). Each form of argument is compiled: a source for each query
-has a function for each form, and those with errors are not taken. A compiler reports what it has refused once only, so that one source
-for all queries would not do.
+Pairs of shapes are asked of the concepts that the queries ask (matrix.cpp). Each form of argument is compiled, for each executor: a
+source for each query has a function for each form, and those with errors are not taken. Options have to name the folder of mpi.h.
 """
 
 import concurrent.futures
@@ -18,11 +18,12 @@ import subprocess
 import sys
 import tempfile
 
-FORMS = {  # what it is called, and which of the arguments it is (matrix_arguments.hpp); a form with a letter is asked of all executors
-    "a set": "faces", "one shape": "face", "`make_bvh`": "tree", "`wide`": "broad", "`quantised`": "small", "`make_grid`": "buckets",
-    "`posed`": "placed", "a list": "list", "a list of several kinds": "mixed_list", "bodies": "scene", "bodies of several kinds": "mixed",
-    "in motion": "step",
+COLUMNS = {  # of the table of forms: which of the arguments they are (matrix_arguments.hpp)
+    "a set": ["faces"], "one shape": ["face"], "a tree, posed or not": ["tree", "broad", "small", "placed"], "`make_grid`": ["buckets"],
+    "a list": ["list"], "a list of several kinds": ["mixed_list"], "bodies": ["scene"], "bodies of several kinds": ["mixed"],
+    "in motion": ["step"],
 }
+FORMS = [form for column in COLUMNS.values() for form in column]
 LETTERS = {"tree": "S", "divided": "D", "list": "L", "mixed_list": "K", "scene": "B", "mixed": "M", "step": "W"}
 EXECUTORS = {  # but the processor, which the forms tell of
     "`cuda`": "cuda", "`cuda_devices`": "devices", "ranks": "ranks", "a stream": "stream",
@@ -35,6 +36,8 @@ OF_ROWS = {"any_each": "rows", "any_within_each": "rows", "count_each": "rows", 
 OF_ONE = ["self_pairs", "count_self_pairs", "self_within", "self_crossings"]
 IN_MOTION = {"impacts": 2, "first_impact": 2, "safe_step": 2, "safe_steps": 2, "self_impacts": 1, "first_self_impact": 1,
              "safe_self_step": 1, "safe_self_steps": 1, "first_meetings": 1}  # and how many arguments
+FRONTS = ["pairs", "touching_bodies", "distance", "overlaps", "hausdorff", "any_each", "nearest", "raycast_all", "self_pairs", "impacts",
+          "first_meetings"]  # of queries of one front one is asked of all executors by `check`
 QUERIES = [*OF_TWO, *OF_ROWS, *OF_ONE, *IN_MOTION]
 MORE = {"any_within": ", 1.0", "count_within": ", 1.0", "within": ", 1.0", "bodies_within": ", 1.0", "self_within": ", 1.0",
         "any_within_each": ", 1.0", "for_each_pair": ", {}::visitor", "hausdorff": ", {{.tolerance = 0.01}}",
@@ -69,21 +72,30 @@ def call(query, executor, form):
     return f"abut::{query}({of}::on, {first}, {second}{more})"
 
 
-def taken(query, probes, compiler, folder):
-    """Which of the probes, an executor and a form each, compile."""
-    functions = [f"void probe_{k}() {{ (void)({call(query, *probe)}); }}" for k, probe in enumerate(probes)]
-    source = pathlib.Path(folder) / f"probe_{query}.cpp"
-    source.write_text('#include "matrix_arguments.hpp"\n' + "\n".join(functions) + "\n", encoding="utf-8")
-    done = subprocess.run([*compiler, "-fsyntax-only", "-w", "-fmax-errors=0", f"-I{folder}", str(source)], capture_output=True,
-                          text=True, check=False)
-    refused, elsewhere = set(), done.returncode != 0
-    for line in re.findall(rf"{re.escape(source.name)}:(\d+):", done.stderr):
-        if int(line) > 1:  # that is which include it came by
-            refused.add(int(line) - 2)
-            elsewhere = False
-    if elsewhere:
-        fail(f"{query}: the compiler says:\n{done.stderr[:2000]}")
-    return {probe for k, probe in enumerate(probes) if k not in refused}
+def sifted(query, probes, compiler, folder, name):
+    """Which of the probes, an executor and a form each, compile. Those with errors are left out until no error is left, since a compiler
+    reports what it has refused once only."""
+    probes = list(probes)
+    source = pathlib.Path(folder) / f"{name}_{query}.cpp"
+    while probes:
+        functions = [f"void probe_{k}() {{ (void)({call(query, *probe)}); }}" for k, probe in enumerate(probes)]
+        source.write_text('#include "matrix_arguments.hpp"\n' + "\n".join(functions) + "\n", encoding="utf-8")
+        done = subprocess.run([*compiler, "-fsyntax-only", "-w", "-fmax-errors=0", f"-I{folder}", str(source)], capture_output=True,
+                              text=True, check=False)
+        if done.returncode == 0:
+            break
+        # Line 1 is that which an include came by.
+        refused = {int(line) - 2 for line in re.findall(rf"{re.escape(source.name)}:(\d+):", done.stderr) if int(line) > 1}
+        if not refused:
+            fail(f"{query}: the compiler says:\n{done.stderr[:2000]}")
+        probes = [probe for k, probe in enumerate(probes) if k not in refused]
+    return set(probes)
+
+
+def taken(query, probes, told, compiler, folder):
+    """Which of the probes compile. `told` are those that the page says do, which are not compiled twice if it is right."""
+    return (sifted(query, [p for p in probes if p in told], compiler, folder, "told")
+            | sifted(query, [p for p in probes if p not in told], compiler, folder, "others"))
 
 
 def pairs_of_shapes(root, compiler, folder):
@@ -97,36 +109,67 @@ def table(head, rows):
                       *(f"| `{query}` | " + " | ".join(cells) + " |" for query, cells in rows)]) + "\n"
 
 
-def blocks(root, compiler):
-    probes = [("processor", form) for form in FORMS.values()]
-    probes += [(executor, form) for executor in EXECUTORS.values() for form in LETTERS if form != "divided" or executor == "devices"]
+def yes_or_no(query, there, column):
+    """Whether all forms of a column are taken, or none."""
+    taken_forms = [form for form in column if ("processor", form) in there]
+    if taken_forms and taken_forms != column:
+        fail(f"{query} takes of one column {taken_forms} and not the others: give them columns of their own")
+    return "yes" if taken_forms else "-"
+
+
+def cells_of(text, name):
+    """The rows of a table of the page, by their queries."""
+    block = re.search(rf"<!-- matrix.py writes {name} -->\n(.*?)<!-- end of {name} -->", text, re.DOTALL)
+    rows = [[cell.strip() for cell in line.split("|")[1:-1]] for line in (block[1] if block else "").split("\n")]
+    return {row[0].strip("`"): row[1:] for row in rows if row and row[0].startswith("`")}
+
+
+def blocks(root, compiler, text, asked_of_all):
+    """What the page has to say. Of queries that are not in asked_of_all it is taken to be right about executors."""
+    forms_told, executors_told = cells_of(text, "forms"), cells_of(text, "executors")
+    letter_of = {letter: form for form, letter in LETTERS.items()}
+
+    def told_of(query):
+        told = {("processor", form) for column, cell in zip(COLUMNS.values(), forms_told.get(query, [])) if cell == "yes"
+                for form in column}
+        for executor, cell in zip(EXECUTORS.values(), executors_told.get(query, [""])[1:]):
+            told |= {(executor, letter_of[letter]) for letter in cell if letter in letter_of}
+        return told
+
+    def there_of(query):
+        told, probes = told_of(query), [("processor", form) for form in FORMS]
+        others = [(executor, form) for executor in EXECUTORS.values() for form in LETTERS if form != "divided" or executor == "devices"]
+        if query in asked_of_all:
+            return taken(query, probes + others, told, compiler, folder)
+        return taken(query, probes, told, compiler, folder) | (told & set(others))
+
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(os.cpu_count() or 1) as pool:
         pairs = pool.submit(pairs_of_shapes, root, compiler, folder)
         head = root / "tests/project/matrix_arguments.hpp"
         subprocess.run([*compiler, "-w", "-x", "c++-header", str(head), "-o", f"{folder}/{head.name}.gch"], check=True)  # read once
-        of_queries = list(pool.map(lambda query: taken(query, probes, compiler, folder), QUERIES))
+        of_queries = list(pool.map(there_of, QUERIES))
         of_pairs, of_sets = pairs.result()
 
     def letters(there, executor):
-        forms = "".join(letter for form, letter in LETTERS.items() if (executor, form) in there)
-        return forms or "-"
+        return "".join(letter for form, letter in LETTERS.items() if (executor, form) in there) or "-"
 
     all_of = list(zip(QUERIES, of_queries))
-    forms = [(query, ["yes" if ("processor", form) in there else "-" for form in FORMS.values()]) for query, there in all_of]
+    forms = [(query, [yes_or_no(query, there, column) for column in COLUMNS.values()]) for query, there in all_of]
     executors = [(query, [letters(there, x) for x in ("processor", *EXECUTORS.values())]) for query, there in all_of]
-    return {"pairs": of_pairs, "sets": of_sets, "forms": table(FORMS, forms),
+    return {"pairs": of_pairs, "sets": of_sets, "forms": table(COLUMNS, forms),
             "executors": table(["`serial`, `openmp`", *EXECUTORS], executors)}
 
 
 def main():
-    if len(sys.argv) < 4 or sys.argv[1] not in ("check", "write"):
-        fail("usage: matrix.py check|write ROOT COMPILER [OPTION...]")
+    if len(sys.argv) < 4 or sys.argv[1] not in ("check", "check-all", "write"):
+        fail("usage: matrix.py check|check-all|write ROOT COMPILER [OPTION...]")
     root = pathlib.Path(sys.argv[2])
     compiler = [*sys.argv[3:], "-std=c++20", f"-I{root / 'include'}"]
     page = root / "docs" / "matrix.md"
     text = page.read_text(encoding="utf-8")
     told = text
-    for name, block in blocks(root, compiler).items():
+    asked_of_all = FRONTS if sys.argv[1] == "check" else QUERIES
+    for name, block in blocks(root, compiler, text, asked_of_all).items():
         pattern = rf"(<!-- matrix.py writes {name} -->\n).*?(<!-- end of {name} -->)"
         told, n = re.subn(pattern, lambda m: m[1] + block + m[2], told, flags=re.DOTALL)
         if n != 1:
