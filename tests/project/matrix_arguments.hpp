@@ -15,9 +15,7 @@
 #include <abut/devices/query.hpp>
 #include <abut/devices/rows.hpp>
 #include <abut/devices/solids.hpp>
-#if __has_include(<mpi.h>)
 #include <abut/mpi.hpp>
-#endif
 
 #include "../devices/host_team.hpp"
 #include "../support/fenced.hpp"
@@ -95,10 +93,8 @@ struct devices {
     static constexpr auto visitor = use_there;
 };
 
-#if __has_include(<mpi.h>)
 struct ranks : arguments<abut::serial, host_space> {
     static const abut::distributed<abut::serial>& on;
 };
-#endif
 
 }  // namespace ask
