@@ -66,7 +66,7 @@ def cost_peers(results):
     ways = results["cpu/turning"]
     ours, theirs = "short/abut", "short/fcl_naive"
     add("motions of a robot that turns", "FCL", ways.get(ours) / ways.get(theirs), f"{whole(ways.get(ours, 'missed'))} of 1,000",
-        f"{whole(ways.get(theirs, 'phantom'))} that do not meet, {whole(ways.get(theirs, 'late'))} late", "turning.md#what-it-costs")
+        f"{whole(ways.get(theirs, 'phantom'))} that do not meet, {whole(ways.get(theirs, 'late'))} late", "results/turning.md")
     return table(["work", "beside", "time of `abut` over it", "`abut` gets wrong", "it gets wrong"], rows, 2)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Turns what ctest said of a whole run into a row of results, and these into the table of docs/building.md.
+"""Turns what ctest said of a whole run into a row of results, and these into the table of docs/results/tests.md.
 
 usage: report_runs.py LOG... --run=WHAT --compiler=NAME --json=OUT.json [--commit=HASH] [--date=DATE]
 

@@ -88,7 +88,7 @@ fi
 
 need_packages g++ cmake ninja-build python3 catch2 librapidcheck-dev libboost-dev
 wanted='libgmp-dev libmpfr-dev libcgal-dev libfcl-dev libeigen3-dev libcli11-dev nlohmann-json3-dev pkg-config
-    libbenchmark-dev doxygen libopenmpi-dev openmpi-bin'
+    libbenchmark-dev doxygen libjs-lunr libopenmpi-dev openmpi-bin'
 if [ $bench = yes ]; then wanted="$wanted libembree-dev libbullet-dev libnanoflann-dev"; fi
 # shellcheck disable=SC2086
 want_packages $wanted ccache $viewer_packages

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Makes the pages of README.md and docs/ ready for Doxygen: usage: site.py ROOT FOLDER VERSION
+"""Makes the pages of README.md and docs/ ready for Doxygen: usage: site.py ROOT FOLDER VERSION LUNR
 
 Writes each page to FOLDER/pages and what it links to, other than pages, to FOLDER/files, and FOLDER/Doxyfile, which reads them and
-the headers. Doxygen has other rules than GitHub, whose pages these are. So each heading gets a label of its own, links to pages and
+the headers. The text of all pages goes to FOLDER/search_sections.js, in which a page of its own looks (search.js) with LUNR, lunr.js. Doxygen has other rules than GitHub, whose pages these are. So each heading gets a label of its own, links to pages and
 headings name these labels, and what Doxygen takes for a command is written so that it is none.
 """
 
+import json
 import os
 import re
 import shutil
@@ -21,6 +22,12 @@ CODE = re.compile(r"(`+)(.+?)\1", re.DOTALL)
 def label_of(page, anchor=""):
     name = re.sub(r"\W", "_", str(page.with_suffix("")))
     return f"page_{name}" + (f"__{re.sub(r'[^a-z0-9_-]', '_', anchor)}" if anchor else "")
+
+
+def words_of(text):
+    """The words of a piece of a page that a reader sees, with spaces between."""
+    text = re.sub(r"<!--.*?-->|</?[a-z][^>\n]*>|^ *```.*$", " ", text, flags=re.DOTALL | re.MULTILINE)
+    return " ".join(re.findall(r"[A-Za-z0-9_]+", LINK.sub(r"\2", text)))
 
 
 def slugs():
@@ -39,7 +46,7 @@ def slugs():
 
 class Site:
     def __init__(self, root, folder):
-        self.root, self.folder = root, folder
+        self.root, self.folder, self.sections = root, folder, []
         self.pages = [Path("README.md")] + sorted(path.relative_to(root) for path in (root / "docs").rglob("*.md"))
         self.pages.remove(Path("docs/reference/index.md"))  # the reference's own page, which Doxygen reads as it is
 
@@ -107,7 +114,8 @@ class Site:
 
     def write(self, page):
         slug_of, first = slugs(), True
-        made, prose, in_code = [], [], False
+        made, prose, in_code, sections = [], [], False, []
+        address = "index.html" if page == Path("README.md") else f"{label_of(page)}.html"
 
         def flush():
             if prose:
@@ -116,6 +124,8 @@ class Site:
 
         for line in (self.root / page).read_text(encoding="utf-8").split("\n"):
             heading = None if in_code else re.match(r"^(#+) (.*?)\s*$", line)
+            if sections and not heading:
+                sections[-1][2].append(line)
             if FENCE.match(line):
                 if not in_code:
                     flush()
@@ -129,6 +139,8 @@ class Site:
                 title = re.sub(r"\[(.*?)\]\(.*?\)", r"\1", heading[2]).replace("`", "").replace("<", "&lt;")
                 label = label_of(page) if first else label_of(page, anchor)
                 made.append(f"{heading[1]} {title} {{#{label}}}")
+                shown = title.replace("&lt;", "<")
+                sections.append((address if first else f"{address}#{label}", shown if first else f"{sections[0][1]}: {shown}", []))
                 if first:
                     made.append(f'\n<a id="{label_of(page, anchor)}"></a>')
                 first = False
@@ -138,10 +150,26 @@ class Site:
         name = self.folder / "pages" / f"{label_of(page)}.md"
         name.parent.mkdir(parents=True, exist_ok=True)
         name.write_text("\n".join(made), encoding="utf-8")
+        self.sections += [(to, shown, words_of("\n".join(lines))) for to, shown, lines in sections]
+
+
+SEARCH = """# Search the text {#search_text}
+
+Words of the manual, the evidence and the proofs. Names of the library are found by the field at the top right.
+
+@htmlonly
+<input id="search_words" type="search" size="60" aria-label="words to look for"> <span id="search_count" role="status"></span>
+<ul id="search_found"></ul>
+<script src="lunr.js"></script>
+<script src="search_sections.js"></script>
+<script src="search_text.js"></script>
+<script>show_search();</script>
+@endhtmlonly
+"""
 
 
 def main():
-    root, folder, version = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve(), sys.argv[3]
+    root, folder, version, lunr = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve(), sys.argv[3], sys.argv[4]
     for part in ("pages", "files", "html"):
         shutil.rmtree(folder / part, ignore_errors=True)
     site = Site(root, folder)
@@ -149,6 +177,15 @@ def main():
         site.write(page)
     reference = (root / "docs/reference/index.md").read_text(encoding="utf-8")
     (folder / "pages/reference.md").write_text(reference.replace("# abut {#mainpage}", "# Reference {#reference}"), encoding="utf-8")
+    (folder / "pages/search_text.md").write_text(SEARCH, encoding="utf-8")
+    front = folder / f"pages/{label_of(Path('README.md'))}.md"
+    front.write_text(front.read_text(encoding="utf-8") + "\n[Search the text of all pages](@ref search_text).\n", encoding="utf-8")
+    scripts = folder / "scripts"
+    scripts.mkdir(exist_ok=True)
+    shutil.copyfile(lunr, scripts / "lunr.js")
+    shutil.copyfile(root / "docs/reference/search.js", scripts / "search_text.js")
+    (scripts / "search_sections.js").write_text(f"var search_sections = {json.dumps(site.sections)};\n", encoding="utf-8")
+    extra = " ".join(f'"{path}"' for path in sorted(scripts.iterdir()))
     (folder / "Doxyfile").write_text((root / "docs/reference/Doxyfile").read_text(encoding="utf-8") + f"""
 PROJECT_NUMBER         = {version}
 OUTPUT_DIRECTORY       = "{folder}"
@@ -159,6 +196,7 @@ GENERATE_XML           = NO
 GENERATE_TREEVIEW      = YES
 SEARCHENGINE           = YES
 SERVER_BASED_SEARCH    = NO
+HTML_EXTRA_FILES       = {extra}
 TOC_INCLUDE_HEADINGS   = 2
 STRIP_CODE_COMMENTS    = NO
 WARN_AS_ERROR          = NO

@@ -37,7 +37,7 @@ template <class S, class U>
 std::string queries_of_pair() {
     std::string letters;
     const auto add = [&](bool is, char letter) {
-        if (is) letters += (letters.empty() ? "" : " ") + std::string(1, letter);
+        if (is) letters += letter;
     };
     using namespace detail;  // as `within` has it
     constexpr bool has_ray = std::same_as<S, ray<T>> || std::same_as<U, ray<T>>;

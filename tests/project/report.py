@@ -79,7 +79,7 @@ MUTATIONS = {
     "a page of a test without its end": lambda r: replace(r / "docs" / "results" / "within.md", "<!-- checksum: ", "<!-- "),
     "a digit of what a device said": lambda r: replace(r / "bench" / "results" / "cuda" / "tests.json", '"failed": 0',
                                                        '"failed": 1'),
-    "a digit of what ctest said": lambda r: change_digit(r / "docs" / "building.md", "runs"),
+    "a digit of what ctest said": lambda r: change_digit(r / "docs" / "results" / "tests.md", "runs"),
     "results of an unknown commit": lambda r: replace(r / "bench" / "results" / "cpu" / "ties.json", '"commit": "',
                                                       '"commit": "unknown", "was": "'),
     "results of no date": lambda r: replace(r / "bench" / "results" / "cpu" / "ties.json", '"date": "', '"day": "'),

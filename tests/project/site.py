@@ -5,11 +5,13 @@
 usage: site.py ROOT WORK
 
 All links of all pages lead to a file that is there, and to a place in it; nothing is asked of a network. Each page of README.md and
-docs/ is there with all its headings and words, and can be searched for, as can names of the library. At last a link is broken, a word is taken
-out and a name is taken from the index, and that has to be noticed.
+docs/ is there with all its headings and words, and can be searched for, as can names of the library. Words in the text of each section find
+it, where node can run the search. At last a link is broken, a word is taken out, a name is taken from the index and a section from the search,
+and that has to be noticed.
 """
 
 import html.parser
+import json
 import re
 import shutil
 import subprocess
@@ -122,6 +124,49 @@ def index_of(site):
     return "\n".join(path.read_text(encoding="utf-8") for path in sorted((site / "search").glob("*.js")))
 
 
+FIND = """
+const fs = require("fs"), vm = require("vm"), site = process.argv[1] + "/";
+const world = vm.createContext({});
+for (const name of ["lunr.js", "search_sections.js", "search_text.js"]) vm.runInContext(fs.readFileSync(site + name, "utf8"), world);
+if (process.argv[2]) vm.runInContext(`search_sections.splice(${process.argv[2]}, 1)`, world);
+const asked = JSON.parse(fs.readFileSync(0, "utf8"));
+console.log(JSON.stringify(asked.map(words => world.find_sections(words).map(section => section[0]))));
+"""
+
+
+def found(site, asked, *left_out):
+    """Which sections the site's own search finds for each of what is asked."""
+    done = subprocess.run(["node", "-e", FIND, str(site), *left_out], input=json.dumps(asked), capture_output=True, text=True, check=True)
+    return json.loads(done.stdout)
+
+
+def unfound(site, pages):
+    """Sections that their own words do not find, how many were looked for, and the plants that were not noticed."""
+    sections = json.loads((site / "search_sections.js").read_text(encoding="utf-8")[len("var search_sections = "):].rstrip(";\n"))
+    asked, wanted, problems = [], [], []
+    for address, title, text in sections:
+        name, _, place = address.partition("#")
+        if name not in pages or place and place not in pages[name].places:
+            problems.append(f"search: {title}: there is no {address}")
+        words = [word for word in text.split() if len(word) > 3][-40:]
+        shown = plain(pages[name].text) if name in pages else ""
+        problems += [f"search: {title}: {word} is no word of the page" for word in words[:3] if plain(word) not in shown]
+        if words:
+            asked.append(" ".join(words[::5]))
+            wanted.append(address)
+    one = next(i for i, section in enumerate(sections) if len(section[2]) > 100)
+    words = " ".join(sections[one][2].split()[:12])
+    known = {"sphericity": 0, "touching_bodies": 1, "touching_bod": 1, "friction stiffness": 0}  # and the least number of sections
+    hits = found(site, [*asked, words, *known])
+    problems += [f"search: '{words}' does not find {to}" for words, to, there in zip(asked, wanted, hits) if to not in there]
+    for (word, least), there in zip(known.items(), hits[-len(known):]):
+        if len(there) < least or least == 0 and there:
+            problems.append(f"search: '{word}' finds {len(there)} sections")
+    unnoticed = sections[one][0] not in hits[len(asked)]
+    unnoticed += sections[one][0] in found(site, [words], str(one))[0]
+    return problems, len(asked), unnoticed
+
+
 def main():
     if shutil.which("doxygen") is None:
         print("abut skips: doxygen is not there")
@@ -131,11 +176,16 @@ def main():
     site = work / "html"
     pages, index = read(site), index_of(site)
     problems = list(broken_links(site, pages)) + list(missing(root, pages, index))
+    sections, unnoticed = 0, 0
+    if shutil.which("node") is None:
+        print("node is not there: the search of words was not run")
+    else:
+        more, sections, unnoticed = unfound(site, pages)
+        problems += more
     for line in problems[:40]:
         print(line)
     links = sum(len(page.links) for page in pages.values())
     manual = pages["index.html"]
-    unnoticed = 0
     for where, plant in ((manual.links, "page_docs_none.html"), (manual.links, "page_docs_viewer.html#none"), (manual.links, "files/none.txt"),
                          (manual.links, "file:none"), (manual.loads, "https://example.org/a.js")):
         where.append(plant)
@@ -145,7 +195,7 @@ def main():
     unnoticed += len(list(missing(root, pages, index))) <= len(problems)
     manual.text = kept
     unnoticed += len(list(missing(root, pages, index.replace("make_bvh", "")))) <= len(problems)
-    print(f"{len(pages)} pages, {links} links: {len(problems)} problems, {unnoticed} plants unnoticed")
+    print(f"{len(pages)} pages, {links} links, {sections} sections: {len(problems)} problems, {unnoticed} plants unnoticed")
     return 1 if problems or unnoticed or links < 1000 else 0
 
 

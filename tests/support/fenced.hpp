@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <mutex>
 #include <new>
 #include <type_traits>
@@ -128,7 +129,8 @@ class capped_queue<T, device_space> {
 public:
     using sink = typename work_queue<T, host_space>::sink;
     template <class Policy>
-    capped_queue(const Policy& on, std::size_t capacity) : own_(on, capacity), items_(own_.data()), capacity_(capacity) {}
+    capped_queue(const Policy& on, std::size_t capacity)
+        : own_(std::make_shared<buffer<T, device_space>>(on, capacity)), items_(own_->data()), capacity_(capacity) {}
     /// In memory of the caller's.
     capped_queue(T* room, std::size_t capacity) : items_(room), capacity_(capacity) {}
     [[nodiscard]] std::uint64_t pushed() const { return pushed_; }
@@ -155,7 +157,7 @@ protected:
     }
 
 private:
-    buffer<T, device_space> own_;
+    std::shared_ptr<buffer<T, device_space>> own_;  // copies of a queue are that queue, as on a device
     T* items_;
     std::size_t capacity_;
     std::uint64_t pushed_ = 0;

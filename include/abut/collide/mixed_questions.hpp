@@ -157,7 +157,7 @@ template <class Policy, class Question, class... Indices, class Rows, class F>
 auto with_rows(const Policy& on, const Question& question, const mixed_bodies<Indices...>& all, const Rows& rows,
                const F& f) {
     using T = typename mixed_bodies<Indices...>::scalar_type;
-    if constexpr ((Question::template takes<Policy, bodies<Indices>, Rows, false>() && ...)) {
+    if constexpr ((Question::template takes<Policy, bodies<Indices>, Rows, true>() && ...)) {
         const auto from = question.template make_rows<T>(on, rows, question.function);
         double largest = 0;
         for_each_asked(on, question, all, [&](const auto& x, const bodies_from&) {

@@ -44,6 +44,13 @@ private:
 
 namespace detail {
 
+/// Says in one line that ranks take no bodies; true where there are none.
+template <bool AreBodies>
+consteval bool refuse_bodies() {
+    static_assert(!AreBodies, "abut: bodies lie on one machine: ask those of a rank by its local policy");
+    return !AreBodies;
+}
+
 /// Throws error if an MPI call failed.
 inline void check_mpi(int code, const char* call) {
     if (code == MPI_SUCCESS) return;

@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include <abut/collide/body_pairs.hpp>
 #include <abut/collide/list.hpp>
 #include <abut/collide/list_each.hpp>
 #include <abut/collide/question.hpp>
@@ -426,7 +427,9 @@ std::size_t ask_shares(const distributed<Local>& on, const Relation& how, const 
 
 template <class Local, class Question, class Form, class Options>
 consteval bool can_ask_pairs() {
-    if constexpr (!Form::template can_be_asked<Local, Question, keep_all>()) {
+    if constexpr (!refuse_bodies<std::same_as<typename Form::pair_type, body_pair>>()) {
+        return false;
+    } else if constexpr (!Form::template can_be_asked<Local, Question, keep_all>()) {
         return false;
     } else if constexpr (std::same_as<typename Form::pair_type, index_pair>) {
         return is_global_filter<Local, decltype(Options::filter)>();

@@ -339,9 +339,8 @@ auto bring_rows_and_shapes(const distributed<Local>& on, const Question& questio
 /// Whether ranks take both arguments.
 template <class Local, class Question, class X, class Rows>
 consteval bool can_ask_ranks() {
-    static_assert(!is_bodies<X>, "abut: bodies lie on one machine: ask those of a rank by its local policy");
     static_assert(!Question::filters, "abut: ranks take no filter of rows: those of other ranks have no numbers there");
-    if constexpr (!is_bodies<X> && !Question::filters) return Question::template takes<Local, X, Rows, false>();
+    if constexpr (refuse_bodies<is_bodies<X>>() && !Question::filters) return Question::template takes<Local, X, Rows, false>();
     return false;
 }
 

@@ -175,7 +175,7 @@ auto ask_solid_list(const distributed<Local>&, const Question&, const std::vecto
 }
 template <class Local, class Question, class Scene, class Which>
 auto ask_solid_scene(const distributed<Local>&, const Question&, const Scene&, const Which&) {
-    static_assert(sizeof(Scene) == 0, "abut: bodies lie on one machine: ask those of a rank by its local policy");
+    refuse_bodies<(sizeof(Scene) > 0)>();
     return std::vector<typename Question::template told<float>>();
 }
 
