@@ -199,8 +199,8 @@ double depth_to_leave(const measured_surface<Policy>& of, const farthest_point& 
     const triangle<double>& t = of.face(deepest.face);
     const vec3<double> in = 0.5 * (0.5 * (t.a + t.b) + t.c) - deepest.point, up = cross(t.b - t.a, t.c - t.a);
     const double in_size = length_of(in), up_size = length_of(up);
-    if (!(in_size > 0x1p-40) || !(up_size > 0x1p-80)) return 0;
-    const vec3<double> beside = deepest.point + (step / in_size) * in, aside = (step * 0x1p-8 / up_size) * up;
+    if (!(up_size > 0x1p-80)) return 0;
+    const vec3<double> beside = deepest.point + (in_size > step ? step / in_size : 0) * in, aside = (step * 0x1p-8 / up_size) * up;
     const std::vector<bool> is = of.have_inside({beside + aside, beside - aside});
     return is[0] || is[1] ? std::max(0.0, deepest.lower - 2 * step) : 0;
 }
