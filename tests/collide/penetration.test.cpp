@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <limits>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -141,6 +142,87 @@ int deepest_sample(const std::vector<unit_square>& of, const std::set<grid_place
     }
     return most;
 }
+/// No sample is deeper, and the point that was found is in the solid and as deep as is said: in whole eighths, and in rationals of
+/// what the doubles are.
+std::uint64_t wrongs_of_depth(const std::vector<unit_square>& of, const std::set<grid_place>& solid, const std::vector<unit_square>& to,
+                              const farthest_point& f) {
+    std::uint64_t wrong = 0;
+    const rational upper = rational(f.upper) * 8;
+    if (rational(deepest_sample(of, solid, to)) > upper * upper) ++wrong;
+    if (f.face == no_id) {
+        if (f.lower > 0) ++wrong;
+    } else {
+        const std::array<rational, 3> p{rational(f.point.x), rational(f.point.y), rational(f.point.z)};
+        const rational lower(f.lower);
+        for (const unit_square& q : to) wrong += squared_to(p, q) < lower * lower;
+        if (!is_within(p, solid)) ++wrong;
+    }
+    if (f.upper - f.lower > 0.0201) ++wrong;
+    return wrong;
+}
+
+/// Boxes of a grid in one mesh, which overlap: the cells that a rule says to be in, and the squares of all.
+struct boxes_in_one {
+    std::vector<cells> boxes;
+
+    static boxes_in_one drawn(draws& d) {
+        boxes_in_one all;
+        for (int k = 1 + d.below(3); k > 0; --k) {
+            cells c;
+            const grid_place size{1 + d.below(3), 1 + d.below(3), 1 + d.below(3)};
+            for (int i = 0; i < size[0] * size[1] * size[2]; ++i) {
+                c.in.insert({i % size[0], i / size[0] % size[1], i / size[0] / size[1]});
+            }
+            for (int& x : c.offset) x = d.below(4);
+            all.boxes.push_back(c);
+        }
+        return all;
+    }
+    [[nodiscard]] std::set<grid_place> solid(inside_rule rule) const {
+        std::map<grid_place, int> turns;
+        for (const cells& c : boxes) {
+            for (const grid_place& u : c.units()) ++turns[u];
+        }
+        std::set<grid_place> all;
+        for (const auto& [u, n] : turns) {
+            if (rule != inside_rule::parity || n % 2 == 1) all.insert(u);
+        }
+        return all;
+    }
+    [[nodiscard]] std::vector<unit_square> squares() const {
+        std::vector<unit_square> all;
+        for (const cells& c : boxes) {
+            for (const unit_square& q : squares_of(c.units())) all.push_back(q);
+        }
+        return all;
+    }
+    template <scalar T>
+    [[nodiscard]] mesh<T> surface(draws& d) const {
+        std::vector<vec3<T>> vertices;
+        std::vector<std::array<std::uint32_t, 3>> faces;
+        for (const cells& c : boxes) {
+            const mesh<T> one = surface_of<T>(c, {}, d);
+            const auto first = static_cast<std::uint32_t>(vertices.size());
+            for (std::size_t v = 0; v < one.view().vertices.count; ++v) vertices.push_back(one.view().vertices[v]);
+            for (std::size_t f = 0; f < one.size(); ++f) {
+                const auto face = one.view().faces[f];
+                faces.push_back({face[0] + first, face[1] + first, face[2] + first});
+            }
+        }
+        return {vertices, faces};
+    }
+};
+/// Whether the interiors of two sets of cells meet, of which the first is moved.
+bool meet_after(const std::set<grid_place>& a, const std::set<grid_place>& b, const std::array<rational, 3>& move) {
+    for (const grid_place& p : a) {
+        for (const grid_place& q : b) {
+            bool meet = true;
+            for (std::size_t c = 0; c < 3; ++c) meet &= abs(rational(p[c] - q[c]) + move[c]) < 1;
+            if (meet) return true;
+        }
+    }
+    return false;
+}
 
 }  // namespace
 
@@ -202,21 +284,8 @@ TEMPLATE_TEST_CASE("penetration: of cells with holes and dents: no sample of a s
         const mesh<TestType> free = moved(x, found.move);
         if (any(on, free, y) || relation(on, free, y) != solid_relation::disconnected) ++wrong;
         const auto check = [&](const cells& of, const cells& in, const farthest_point& f) {
-            const std::set<grid_place> from = of.units(), solid = in.units();
-            const std::vector<unit_square> to = squares_of(solid);
-            // No sample is deeper, and the point that was found is in the solid and as deep as is said: in whole eighths, and
-            // in rationals of what the doubles are.
-            const rational upper = rational(f.upper) * 8;
-            if (rational(deepest_sample(squares_of(from), solid, to)) > upper * upper) ++wrong;
-            if (f.face == no_id) {
-                if (f.lower > 0) ++wrong;
-            } else {
-                const std::array<rational, 3> p{rational(f.point.x), rational(f.point.y), rational(f.point.z)};
-                const rational lower(f.lower);
-                for (const unit_square& q : to) wrong += squared_to(p, q) < lower * lower;
-                if (!is_within(p, solid)) ++wrong;
-            }
-            if (f.upper - f.lower > 0.0201) ++wrong;
+            const std::set<grid_place> solid = in.units();
+            wrong += wrongs_of_depth(squares_of(of.units()), solid, squares_of(solid), f);
         };
         check(a, b, found.a_in_b);
         check(b, a, found.b_in_a);
@@ -225,6 +294,58 @@ TEMPLATE_TEST_CASE("penetration: of cells with holes and dents: no sample of a s
     std::printf("cells: %llu deep of %llu\n", static_cast<unsigned long long>(deep), static_cast<unsigned long long>(count));
     CHECK(wrong == 0);
     CHECK(deep > count / 8);
+}
+
+TEMPLATE_TEST_CASE("penetration: by a rule, of boxes that overlap in one mesh, against cells", "", float, double) {
+    std::uint64_t wrong = 0, deep = 0, proven = 0;
+    const std::uint64_t count = some_samples(160);
+    const serial on;
+    for (std::uint64_t k = 0; k < count; ++k) {
+        draws d(20271129, 5, k);
+        const inside_rule rule = std::array{inside_rule::nonzero, inside_rule::positive, inside_rule::parity}[k % 3];
+        boxes_in_one a = boxes_in_one::drawn(d), b = boxes_in_one::drawn(d);
+        if (k % 8 == 0) a.boxes.push_back(a.boxes.front());  // twice there: by parity it is not
+        const mesh<TestType> x = a.surface<TestType>(d), y = b.surface<TestType>(d);
+        const std::set<grid_place> in_a = a.solid(rule), in_b = b.solid(rule);
+        const auto found = penetration(on, x, y, {.tolerance = 0.02, .rule = rule});
+        if (found.overlap != meet_after(in_a, in_b, {0, 0, 0})) ++wrong;
+        if (!found.overlap) continue;
+        ++deep;
+        wrong += wrongs_of_depth(a.squares(), in_b, b.squares(), found.a_in_b);
+        wrong += wrongs_of_depth(b.squares(), in_a, a.squares(), found.b_in_a);
+        const vec3<double> m{found.move.x, found.move.y, found.move.z};
+        if (meet_after(in_a, in_b, {rational(m.x), rational(m.y), rational(m.z)})) ++wrong;
+        if (std::sqrt(dot(m, m)) > found.most || found.least > found.most) ++wrong;
+        // Shorter moves than `least` do not separate them.
+        proven += found.least > 0.1;
+        for (int i = 0; i < 26; ++i) {
+            const vec3<double> way{i % 3 - 1.0, i / 3 % 3 - 1.0, i / 9 - 1.0};
+            const double size = std::sqrt(dot(way, way)), by = size > 0 ? found.least * (1 - 0x1p-20) / size : 0;
+            if (!meet_after(in_a, in_b, {rational(by * way.x), rational(by * way.y), rational(by * way.z)})) ++wrong;
+        }
+    }
+    std::printf("by a rule: %llu deep of %llu\n", static_cast<unsigned long long>(deep), static_cast<unsigned long long>(count));
+    CHECK(wrong == 0);
+    CHECK(deep > count / 4);
+    CHECK(proven > deep / 2);
+}
+
+TEMPLATE_TEST_CASE("penetration: by parity, a box that is there twice bounds nothing, however deep it is", "", float, double) {
+    draws d(20271129, 6, 0);
+    const auto box = [](const grid_place& at, int side) {
+        cells c;
+        c.in.insert({0, 0, 0});
+        c.offset = at;
+        c.side = side;
+        return c;
+    };
+    const boxes_in_one a{{box({-1, 2, 2}, 2), box({2, 2, 2}, 2), box({2, 2, 2}, 2)}}, b{{box({0, 0, 0}, 6)}};
+    const auto found = penetration(serial{}, a.surface<TestType>(d), b.surface<TestType>(d), {.tolerance = 0.01, .rule = inside_rule::parity});
+    CHECK(found.overlap);
+    CHECK(found.a_in_b.lower > 1.9);
+    CHECK(found.least <= 1);
+    CHECK(found.most > 4);
+    CHECK(penetration(serial{}, a.surface<TestType>(d), b.surface<TestType>(d), {.tolerance = 0.01, .rule = inside_rule::nonzero}).least > 1.99);
 }
 
 TEMPLATE_TEST_CASE("penetration: a needle through a cube is deepest far from all of its corners", "", float, double) {
@@ -266,6 +387,11 @@ TEMPLATE_TEST_CASE("penetration: walls, boxes in boxes, and what is refused", ""
         CHECK(std::string(e.what()).find("abut::penetration: tolerance is -1") == 0);
     }
     CHECK_FALSE(penetration(on, of_mesh, mesh<T>{}).overlap);
+    CHECK_THROWS_AS(penetration(on, of_mesh, open, {.rule = inside_rule::nonzero}), invalid_geometry);
+    const auto tree = make_bvh(on, of_mesh);
+    const std::vector list{posed_pair<std::remove_const_t<decltype(tree)>>{posed(tree, rigid<T>{}), posed(tree, away)}};
+    const penetration_options by{.tolerance = 1e-3, .rule = inside_rule::nonzero};
+    CHECK(penetration(on, list, by).front() == penetration(on, tree, posed(tree, away), by));
 }
 
 }  // namespace abut::test

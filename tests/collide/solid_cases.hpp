@@ -167,7 +167,19 @@ inline solid_relation truth_of(const cells& first, const cells& second) {
     return solid_relation::equal;
 }
 
-/// A map by a few shears and swaps.
+/// A rotation by a quaternion of small integers, times the square of its length: it moves no axis into an axis, most often.
+inline std::array<grid_place, 3> draw_rotation(draws& d) {
+    int q[4] = {0, 0, 0, 0};
+    while (q[0] == 0 && q[1] == 0 && q[2] == 0 && q[3] == 0) {
+        for (int& part : q) part = d.below(5) - 2;
+    }
+    const auto [w, x, y, z] = q;
+    return {{{w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)},
+             {2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)},
+             {2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z}}};
+}
+
+/// A map by a few shears and swaps, and half of them by a rotation too.
 inline frame_of_grid draw_frame(draws& d) {
     frame_of_grid f;
     for (int k = 0; k < 4; ++k) {
@@ -178,6 +190,14 @@ inline frame_of_grid draw_frame(draws& d) {
         for (int c = 0; c < 3; ++c) std::swap(f.map[0][c], f.map[1][c]);
     }
     f.unit = d.below(2) == 0 ? 1 : 0x1p-20;
+    if (d.below(2) == 0) return f;
+    const auto by = draw_rotation(d);
+    const frame_of_grid sheared = f;
+    for (std::size_t r = 0; r < 3; ++r) {
+        for (int c = 0; c < 3; ++c) {
+            f.map[r][c] = by[r][0] * sheared.map[0][c] + by[r][1] * sheared.map[1][c] + by[r][2] * sheared.map[2][c];
+        }
+    }
     return f;
 }
 
@@ -318,6 +338,16 @@ inline polyhedron draw_polyhedron(draws& d, int size) {
         polyhedron body(std::move(points));
         if (!body.sides.empty()) return body;
     }
+}
+/// The same, turned and as many times as large.
+inline polyhedron turned(const polyhedron& of, const std::array<grid_place, 3>& by) {
+    std::vector<grid_place> at;
+    for (const grid_place& p : of.at) {
+        grid_place q{0, 0, 0};
+        for (std::size_t r = 0; r < 3; ++r) q[r] = by[r][0] * p[0] + by[r][1] * p[1] + by[r][2] * p[2];
+        at.push_back(q);
+    }
+    return polyhedron(std::move(at));
 }
 template <scalar T>
 mesh<T> surface_of(const polyhedron& of, const frame_of_grid& frame, draws& d) {

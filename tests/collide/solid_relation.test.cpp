@@ -167,6 +167,16 @@ TEMPLATE_TEST_CASE("relation: prisms, boxes without corners, and hulls of a smal
             }
             a = polyhedron(std::move(a.at));
         }
+        if (k % 4 == 3) {  // each on a lattice of its own, and most with a corner on a corner
+            a = turned(a, draw_rotation(d));
+            b = turned(b, draw_rotation(d));
+            const grid_place &to = a.at[static_cast<std::size_t>(d.below(static_cast<int>(a.at.size())))],
+                             from = b.at[static_cast<std::size_t>(d.below(static_cast<int>(b.at.size())))];
+            const int aside = d.below(4) == 0 ? d.below(3) : 0;
+            for (grid_place& p : b.at) {
+                for (std::size_t c = 0; c < 3; ++c) p[c] += to[c] - from[c] + aside;
+            }
+        }
         const frame_of_grid f = draw_frame(d);
         const mesh<TestType> x = surface_of<TestType>(a, f, d), y = surface_of<TestType>(b, f, d);
         all.note(relation(on, x, y, {.known_solid = k % 8 != 0}), truth_of(a, b));

@@ -54,12 +54,13 @@ bool is_on(const place3& p, const std::vector<face3>& faces) {
         return dot3(cross3(f[1] - f[0], f[2] - f[0]), p - f[0]) == 0 && place_in(p, f) > 0;
     });
 }
-bool is_inside(const place3& p, const std::vector<face3>& faces) {
+bool is_inside(const place3& p, const std::vector<face3>& faces, inside_rule rule) {
     std::mt19937 random(11);
     std::uniform_int_distribution<int> any(-1000003, 1000003);
     for (;;) {
         const place3 d{ratio(any(random)), ratio(any(random)), ratio(any(random))};
-        bool odd = false, generic = true;
+        int turns = 0;
+        bool generic = true;
         for (const face3& f : faces) {
             const place3 n = cross3(f[1] - f[0], f[2] - f[0]);
             const ratio speed = dot3(n, d);
@@ -74,9 +75,9 @@ bool is_inside(const place3& p, const std::vector<face3>& faces) {
                 generic = false;
                 break;
             }
-            odd ^= in == 2;
+            if (in == 2) turns += speed.sign();
         }
-        if (generic) return odd;
+        if (generic) return rule == inside_rule::parity ? turns % 2 != 0 : rule == inside_rule::nonzero ? turns != 0 : turns > 0;
     }
 }
 
@@ -84,7 +85,7 @@ struct stretch {
     ratio from, to;
 };
 template <class T>
-std::vector<stretch> stretches_of(const ray<T>& r, const std::vector<face3>& faces) {
+std::vector<stretch> stretches_of(const ray<T>& r, const std::vector<face3>& faces, inside_rule rule) {
     const place3 o = exactly(r.origin), d = exactly(r.direction);
     std::set<ratio> times{0};
     const auto add = [&](const ratio& t) {
@@ -107,7 +108,7 @@ std::vector<stretch> stretches_of(const ray<T>& r, const std::vector<face3>& fac
     const std::vector<ratio> in_order(times.begin(), times.end());
     for (std::size_t i = 0; i + 1 < in_order.size(); ++i) {
         const place3 p = at(o, d, (in_order[i] + in_order[i + 1]) / 2);
-        if (is_on(p, faces) || !is_inside(p, faces)) continue;
+        if (is_on(p, faces) || !is_inside(p, faces, rule)) continue;
         if (!found.empty() && found.back().to == in_order[i]) {
             found.back().to = in_order[i + 1];
         } else {
@@ -124,7 +125,8 @@ struct bare_mesh {
     [[nodiscard]] abut::mesh<T> made() const { return {vertices, faces}; }
 };
 
-/// The surface of some unit cubes, between those that are there and those that are not: edges have two faces or four.
+/// The surface of some unit cubes, between those that are there and those that are not: edges have two faces or four. Faces look
+/// outwards.
 template <class T>
 bare_mesh<T> cubes(std::mt19937& random, int n, unsigned of_ten) {
     bare_mesh<T> m;
@@ -152,12 +154,20 @@ bare_mesh<T> cubes(std::mt19937& random, int n, unsigned of_ten) {
                     c[(axis + 2) % 3] += k / 2;
                     v[k] = vertex(c[0], c[1], c[2]);
                 }
-                // Which way the square is cut goes by its place, and which way its faces are turned does not matter.
+                if (side == 0) std::swap(v[1], v[3]);
                 m.faces.push_back({v[0], v[1], v[2]});
                 m.faces.push_back({v[0], v[2], v[3]});
             }
         }
     }
+    return m;
+}
+/// Both in one mesh, the second moved by one and turned inside out if that is asked: faces are there twice, and lie within.
+template <class T>
+bare_mesh<T> heap(bare_mesh<T> m, const bare_mesh<T>& other, bool inwards) {
+    const auto first = static_cast<std::uint32_t>(m.vertices.size());
+    for (const auto& v : other.vertices) m.vertices.push_back({v.x + 1, v.y, v.z});
+    for (const face& f : other.faces) m.faces.push_back({f[0] + first, f[inwards ? 2 : 1] + first, f[inwards ? 1 : 2] + first});
     return m;
 }
 template <class T>
@@ -169,7 +179,7 @@ bare_mesh<T> tetrahedra(std::mt19937& random, int n) {
         if (dot(cross(c[1] - c[0], c[2] - c[0]), c[3] - c[0]) == 0) continue;
         const auto first = static_cast<std::uint32_t>(m.vertices.size());
         m.vertices.insert(m.vertices.end(), c, c + 4);
-        for (const face& f : {face{0, 1, 2}, face{0, 1, 3}, face{0, 2, 3}, face{1, 2, 3}}) m.faces.push_back({f[0] + first, f[1] + first, f[2] + first});
+        for (const face& f : {face{0, 2, 1}, face{0, 1, 3}, face{0, 3, 2}, face{1, 2, 3}}) m.faces.push_back({f[0] + first, f[1] + first, f[2] + first});
         --n;
     }
     return m;
@@ -188,19 +198,20 @@ std::vector<ray<T>> lattice_rays(std::mt19937& random, std::size_t n, int extent
 }
 
 template <class T>
-std::size_t check_spans(const bare_mesh<T>& m, const std::vector<ray<T>>& rays) {
+std::size_t check_spans(const bare_mesh<T>& m, const std::vector<ray<T>>& rays, inside_rule rule = inside_rule::parity) {
     std::vector<face3> faces;
     for (const face& f : m.faces) faces.push_back({exactly(m.vertices[f[0]]), exactly(m.vertices[f[1]]), exactly(m.vertices[f[2]])});
     const auto part = m.made();
     const abut::rays<T> all(rays);
     const auto tree = make_bvh(serial{}, part);
-    const auto found = spans(serial{}, tree, all);
-    CHECK((spans(openmp{.threads = 2}, part, all) == found));
-    CHECK((spans<exact>(serial{}, tree, all.view(), {.known_closed = true}) == found));
-    CHECK((spans(serial{}, posed(tree, rigid<T>{}), all) == found));
+    const inside_options by{.rule = rule, .check = false};
+    const auto found = spans(serial{}, tree, all, by);
+    CHECK((spans(openmp{.threads = 2}, part, all, by) == found));
+    CHECK((spans<exact>(serial{}, tree, all.view(), {.known_closed = true, .rule = rule}) == found));
+    CHECK((spans(serial{}, posed(tree, rigid<T>{}), all, by) == found));
     std::size_t k = 0;
     for (std::uint32_t i = 0; i < rays.size(); ++i) {
-        const auto expected = stretches_of(rays[i], faces);
+        const auto expected = stretches_of(rays[i], faces, rule);
         for (const stretch& s : expected) {
             REQUIRE(k < found.size());
             const auto& f = found[k++];
@@ -244,6 +255,28 @@ TEMPLATE_TEST_CASE("spans: through tetrahedra that pass through each other, by p
         stretches += check_spans(tetrahedra<TestType>(random, 1 + round % 4), lattice_rays<TestType>(random, 50, 3));
     }
     CHECK(stretches > 150);
+}
+
+TEMPLATE_TEST_CASE("spans: by rules, through bodies that overlap, touch, and are turned inside out", "", float, double) {
+    std::mt19937 random(24);
+    std::size_t stretches = 0;
+    for (unsigned round = 0; round < 24; ++round) {
+        const auto m = round % 2 == 0 ? tetrahedra<TestType>(random, 2 + static_cast<int>(round) % 4)
+                                      : heap(cubes<TestType>(random, 2, 7), cubes<TestType>(random, 2, 6), round % 8 == 1);
+        const inside_rule rule = round % 3 == 0 ? inside_rule::positive : inside_rule::nonzero;
+        stretches += check_spans(m, lattice_rays<TestType>(random, 24, 2), rule);
+    }
+    CHECK(stretches > 60);
+    // Two bodies as one: the ray goes on in what they have in common.
+    const auto both = heap(cubes<TestType>(random, 2, 10), cubes<TestType>(random, 2, 10), false);
+    const rays<TestType> through({{{-1, TestType(0.5), TestType(0.25)}, {1, 0, 0}}});
+    CHECK(spans(serial{}, both.made(), through).size() == 2);
+    const auto found = spans(serial{}, both.made(), through, {.rule = inside_rule::nonzero});
+    REQUIRE(found.size() == 1);
+    CHECK((found[0].from == 1 && found[0].to == 4));
+    auto turned = both;
+    std::swap(turned.faces[0][0], turned.faces[0][1]);
+    CHECK_THROWS_AS(spans(serial{}, turned.made(), through, {.rule = inside_rule::nonzero}), invalid_geometry);
 }
 
 TEMPLATE_TEST_CASE("spans: at random, and far from even numbers", "", float, double) {

@@ -114,6 +114,10 @@ void check_spans_of_team(const Team& team) {
         CHECK((spans(team, x, replicate(team, lines), {.known_closed = true}) == expected));
         CHECK((spans(team, divide(team, x), lines, {.known_closed = true}) == expected));
         CHECK((spans<exact>(team, posed(make_bvh(team, divide(team, x)), rigid<float>{}), lines, {.known_closed = true}) == expected));
+        // Turned inside out, by rules: of a divided mesh too.
+        const auto turned = surface_of<float>(draw_two_sets(d, k).first, frame_of_grid{}, d, true);
+        CHECK(spans(team, divide(team, turned), lines, {.known_closed = true, .rule = inside_rule::positive}).empty());
+        CHECK((spans(team, divide(team, turned), lines, {.known_closed = true, .rule = inside_rule::nonzero}) == spans(serial{}, turned, lines)));
         CHECK_THROWS_AS(spans(team, divide(team, x), lines), error);
     }
     CHECK(stretches > 2000);

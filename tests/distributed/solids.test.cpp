@@ -138,12 +138,13 @@ TEST_CASE("distributed: stretches of rays inside") {
         const auto lines = draw_rays_of_grid<float>(d, 600);
         std::vector<global_ray_span<float>> expected;
         const auto global = [](std::uint32_t id) { return id == ray_span<float>::no_face ? global_ray_span<float>::no_face : std::uint64_t{id}; };
-        for (const auto& s : spans(serial{}, x, rays<float>(lines))) expected.push_back({s.ray, global(s.enter), global(s.leave), s.from, s.to});
+        const inside_options by{.known_closed = true, .rule = k % 2 == 0 ? inside_rule::parity : inside_rule::positive};
+        for (const auto& s : spans(serial{}, x, rays<float>(lines), by)) expected.push_back({s.ray, global(s.enter), global(s.leave), s.from, s.to});
         stretches += expected.size();
         const auto part = mesh_by_place(part_of(corners_of_faces(x), divisions[k % 4], on.rank(), on.size()));
         const rays<float> mine(part_of(lines, divisions[k / 4], on.rank(), on.size()));
-        CHECK((lists_of_all(on.ranks(), spans(on, part, mine, {.known_closed = true})) == expected));
-        CHECK((lists_of_all(on.ranks(), spans<exact>(on, make_bvh(on.local(), part), mine, {.known_closed = true})) == expected));
+        CHECK((lists_of_all(on.ranks(), spans(on, part, mine, by)) == expected));
+        CHECK((lists_of_all(on.ranks(), spans<exact>(on, make_bvh(on.local(), part), mine, by)) == expected));
         CHECK_THROWS_AS(spans(on, part, mine), error);
     }
     CHECK(stretches > 400);

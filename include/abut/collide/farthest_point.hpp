@@ -72,8 +72,8 @@ class measured_surface {
 public:
     using tree_type = decltype(make_bvh(std::declval<const Policy&>(), copy_to(std::declval<const Policy&>(), triangle_soup<double>())));
 
-    measured_surface(const Policy& on, std::vector<triangle<double>> faces)
-        : on_(on), faces_(std::move(faces)), tree_(make_bvh(on, copy_to(on, triangle_soup<double>(faces_)))) {}
+    measured_surface(const Policy& on, std::vector<triangle<double>> faces, inside_rule rule = inside_rule::parity)
+        : on_(on), faces_(std::move(faces)), rule_(rule), tree_(make_bvh(on, copy_to(on, triangle_soup<double>(faces_)))) {}
 
     [[nodiscard]] std::size_t size() const { return faces_.size(); }
     [[nodiscard]] const triangle<double>& face(std::size_t i) const { return faces_[i]; }
@@ -81,12 +81,13 @@ public:
     [[nodiscard]] auto nearest_to(const std::vector<vec3<double>>& points) const { return to_host(nearest(on_, tree_, points)); }
     /// Of a closed surface, for each point whether it is inside.
     [[nodiscard]] std::vector<bool> have_inside(const std::vector<vec3<double>>& points) const {
-        return are_inside(on_, tree_, points, "abut::penetration");
+        return are_inside(on_, tree_, points, "abut::penetration", rule_);
     }
 
 private:
     const Policy& on_;
     std::vector<triangle<double>> faces_;
+    inside_rule rule_;
     tree_type tree_;
 };
 

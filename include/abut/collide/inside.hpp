@@ -52,7 +52,7 @@ enum class inside_rule : std::uint8_t {
 struct inside_options {
     /// The caller knows that the mesh is closed, and it is not looked at. Of a mesh that is not, answers mean nothing.
     flag known_closed = false;
-    /// Of `inside` and `signed_distance`. Of a mesh in parts there is `parity` only.
+    /// Of a mesh in parts `inside` and `signed_distance` have `parity` only.
     inside_rule rule = inside_rule::parity;
     /// Refuses a mesh in which all faces of a body are there twice, or more often, so that they cancel and it has no inside. It
     /// takes a search for faces with the same vertices where the mesh is looked at. By default in builds without NDEBUG.
@@ -75,14 +75,18 @@ struct winding_count {
 
 namespace detail {
 
+/// Whether points are inside that a surface goes round so often.
+ABUT_HD constexpr bool is_in_by(inside_rule rule, std::int32_t turns) {
+    return rule == inside_rule::parity ? turns % 2 != 0 : rule == inside_rule::nonzero ? turns != 0 : turns > 0;
+}
+
 /// What is told of crossings.
 template <class Answer>
 ABUT_HD Answer answer_of_crossings(std::int32_t turns, bool is_on, inside_rule rule) {
     if constexpr (std::same_as<Answer, winding_count>) {
         return {is_on ? 0 : turns, is_on};
     } else {
-        const bool is_in = rule == inside_rule::parity ? turns % 2 != 0 : rule == inside_rule::nonzero ? turns != 0 : turns > 0;
-        return is_on ? containment::on_surface : is_in ? containment::inside : containment::outside;
+        return is_on ? containment::on_surface : is_in_by(rule, turns) ? containment::inside : containment::outside;
     }
 }
 
@@ -266,12 +270,13 @@ void look_upward(const Policy& on, const Operand& x, const Queries& queries, Ans
 
 /// Of each point, in host memory, whether it is inside of a surface that is known to be closed: a tree of triangles, posed or not.
 template <class Policy, class X, scalar T>
-std::vector<bool> are_inside(const Policy& on, const X& surface, const std::vector<vec3<T>>& asked, const char* function) {
+std::vector<bool> are_inside(const Policy& on, const X& surface, const std::vector<vec3<T>>& asked, const char* function,
+                             inside_rule rule = inside_rule::parity) {
     const auto x = make_operand(on, surface, function);
     const auto set = copy_to(on, points<T>(asked));
     const auto rows = make_operand(on, set, function);
     execution::buffer_of<Policy, containment> where(on, asked.size());
-    look_upward<filtered>(on, x, rows, where.data());
+    look_upward<filtered>(on, x, rows, where.data(), rule);
     std::vector<containment> here(asked.size());
     download(on, where.data(), here.size(), here.data());
     std::vector<bool> are(here.size());

@@ -4,7 +4,7 @@
 // penetration: how deep two solids are in each other, and a move that separates them, between proven bounds. The deepest points
 // are found by the search in farthest_point.hpp. A move that separates is found by trying directions, each of which is bisected:
 // whatever comes out was tested. What no move can be below is proven by the deepest points: a point of one solid that is so deep
-// in the other has to come out.
+// in the other has to come out. By a rule a face may bound nothing; then a point beside it is looked for that is in the solid.
 
 #include <algorithm>
 #include <array>
@@ -23,6 +23,7 @@
 #include <abut/collide/relation.hpp>
 #include <abut/collide/solid_entries.hpp>
 #include <abut/collide/solid_regions.hpp>
+#include <abut/execution/disjoint_sets.hpp>
 
 namespace abut {
 
@@ -37,6 +38,8 @@ struct penetration_options {
     double tolerance = 0;
     /// As of `hausdorff`.
     std::uint64_t most_pieces = std::uint64_t{1} << 20;
+    /// As of `relation`. Depths are measured from all faces then, those within a solid too.
+    std::optional<inside_rule> rule{};
 };
 
 /// How deep two solids are in each other.
@@ -71,8 +74,8 @@ template <class Policy, scalar T>
 class separating_move {
 public:
     separating_move(const Policy& on, const std::vector<triangle<T>>& a, const std::vector<triangle<T>>& b,
-                    std::vector<vec3<T>> of_parts_a, std::vector<vec3<T>> of_parts_b, const unit_of_search& unit)
-        : on_(on), a_(a), b_(b), of_parts_a_(std::move(of_parts_a)), of_parts_b_(std::move(of_parts_b)), unit_(unit),
+                    std::vector<vec3<T>> of_parts_a, std::vector<vec3<T>> of_parts_b, const unit_of_search& unit, inside_rule rule)
+        : on_(on), a_(a), b_(b), of_parts_a_(std::move(of_parts_a)), of_parts_b_(std::move(of_parts_b)), unit_(unit), rule_(rule),
           tree_a_(make_bvh(on, copy_to(on, triangle_soup<T>(a)))), tree_b_(make_bvh(on, copy_to(on, triangle_soup<T>(b)))) {}
 
     /// Along a direction: nothing comes of it that is not shorter than what was found before. `least` is below any move, and
@@ -148,7 +151,7 @@ private:
     }
     template <class X>
     bool has_inside(const X& x, const std::vector<vec3<T>>& points) const {
-        const std::vector<bool> are = are_inside(on_, x, points, "abut::penetration");
+        const std::vector<bool> are = are_inside(on_, x, points, "abut::penetration", rule_);
         return std::find(are.begin(), are.end(), true) != are.end();
     }
     /// Whether nothing touches, and no part of a surface is in the other solid.
@@ -165,34 +168,59 @@ private:
     const std::vector<triangle<T>>&a_, &b_;
     std::vector<vec3<T>> of_parts_a_, of_parts_b_;
     const unit_of_search& unit_;
+    inside_rule rule_;
     tree_type tree_a_, tree_b_;
     bool is_found_ = false;
     vec3<T> move_{0, 0, 0};
     double length_ = infinity<double>;
 };
 
-/// A vertex of each part of a surface.
+/// A vertex of each part of a surface: of all faces that share vertices.
 template <scalar T>
-std::vector<vec3<T>> vertices_of_parts(const solid_surface<T>& surface) {
+std::vector<vec3<T>> vertices_of_parts(const std::vector<mesh_face<T>>& faces) {
+    std::uint32_t numbers = 0;
+    for (const auto& f : faces) numbers = std::max({numbers, f.vertex[0] + 1, f.vertex[1] + 1, f.vertex[2] + 1});
+    id_buffer<serial> parents(serial{}, numbers);
+    const execution::disjoint_sets parts = execution::make_disjoint_sets(serial{}, parents);
+    for (const auto& f : faces) parts.unite(f.vertex[0], f.vertex[1]), parts.unite(f.vertex[0], f.vertex[2]);
+    std::vector<char> is_known(numbers, 0);
     std::vector<vec3<T>> vertices;
-    for (std::uint32_t p = 0; p < surface.parts(); ++p) vertices.push_back(surface.vertex_of_part(p));
+    for (const auto& f : faces) {
+        if (std::exchange(is_known[parts.root(f.vertex[0])], 1) == 0) vertices.push_back(f.corners.a);
+    }
     return vertices;
 }
-/// Of two whose interiors meet: their triangles, and a vertex of each part.
+/// What no move can be below by a deepest point, in the unit of the search. By a rule a point of the solid has to be near it:
+/// a step into its face, and by less to one side of it.
+template <class Policy>
+double depth_to_leave(const measured_surface<Policy>& of, const farthest_point& deepest, bool by_rule) {
+    if (!by_rule || deepest.face == no_id) return deepest.lower;
+    constexpr double step = 0x1p-30;
+    const triangle<double>& t = of.face(deepest.face);
+    const vec3<double> in = 0.5 * (0.5 * (t.a + t.b) + t.c) - deepest.point, up = cross(t.b - t.a, t.c - t.a);
+    const double in_size = length_of(in), up_size = length_of(up);
+    if (!(up_size > 0x1p-80)) return 0;
+    const vec3<double> beside = deepest.point + (in_size > step ? step / in_size : 0) * in, aside = (step * 0x1p-8 / up_size) * up;
+    const std::vector<bool> is = of.have_inside({beside + aside, beside - aside});
+    return is[0] || is[1] ? std::max(0.0, deepest.lower - 2 * step) : 0;
+}
+/// Of two whose interiors meet.
 template <class Policy, scalar T>
-penetration_bounds<T> bounds_of_overlap(const Policy& on, const std::vector<triangle<T>>& of_a, const std::vector<triangle<T>>& of_b,
-                                        std::vector<vec3<T>> parts_a, std::vector<vec3<T>> parts_b, const penetration_options& options) {
+penetration_bounds<T> bounds_of_overlap(const Policy& on, const std::vector<mesh_face<T>>& faces_a, const std::vector<mesh_face<T>>& faces_b,
+                                        const penetration_options& options) {
+    const std::vector<triangle<T>> of_a = triangles_of_faces(faces_a), of_b = triangles_of_faces(faces_b);
+    const inside_rule rule = options.rule.value_or(inside_rule::parity);
     penetration_bounds<T> found;
     found.overlap = true;
     unit_of_search unit;
     unit.see(of_a);
     unit.see(of_b);
     const double tolerance = unit.tolerance(options.tolerance);
-    const measured_surface<Policy> x(on, unit.bring(of_a)), y(on, unit.bring(of_b));
+    const measured_surface<Policy> x(on, unit.bring(of_a), rule), y(on, unit.bring(of_b), rule);
     const farthest_point deepest_a = farthest_search<Policy>(x, y, true).run(tolerance, options.most_pieces),
                          deepest_b = farthest_search<Policy>(y, x, true).run(tolerance, options.most_pieces);
-    const double least = std::max(deepest_a.lower, deepest_b.lower);
-    separating_move<Policy, T> move(on, of_a, of_b, std::move(parts_a), std::move(parts_b), unit);
+    const double least = std::max(depth_to_leave(x, deepest_a, options.rule.has_value()), depth_to_leave(y, deepest_b, options.rule.has_value()));
+    separating_move<Policy, T> move(on, of_a, of_b, vertices_of_parts(faces_a), vertices_of_parts(faces_b), unit, rule);
     std::vector<vec3<double>> ways{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
     const auto middle = [&](const std::vector<triangle<T>>& of) {
         aabb<T> box = empty_box<T>();
@@ -226,14 +254,13 @@ struct penetration_of_entries {
     [[nodiscard]] auto find(Entries& entries) const {
         using T = typename Entries::T;
         unit_of_search::check_tolerance(options.tolerance, function);
-        const solid_options known{.known_solid = options.known_solid};
+        const solid_options known{.known_solid = options.known_solid, .rule = options.rule};
         const auto regions = entries.template regions<filtered>(known, false, [](const common_regions& all) { return all.both; });
         std::vector<penetration_bounds<T>> found(entries.size());
         for (std::size_t i = 0; i < found.size(); ++i) {
             if (!regions[i].found.both) continue;
-            const solid_surface<T>&a = entries.a()[entries[i].a].surface(), &b = entries.b()[entries[i].b].surface();
             found[i] = bounds_of_overlap<std::remove_cvref_t<decltype(entries.policy())>, T>(
-                entries.policy(), triangles_of_faces(a.faces()), triangles_of_faces(b.faces()), vertices_of_parts(a), vertices_of_parts(b), options);
+                entries.policy(), entries.a().faces(entries[i].a).first, entries.b().faces(entries[i].b).first, options);
         }
         return found;
     }
@@ -262,7 +289,11 @@ struct penetration_of_entries {
 ///   find the least move of solids with dents is as hard as to find their Minkowski sum. Directions that are tried are the axes,
 ///   between the middles, out by the deepest points, and normals of faces that come nearest.
 ///
-/// `a` and `b` are what `relation` takes, and are refused as there. The same bits on every policy and number of threads. Memory
+/// By `options.rule` the deepest points are of all faces, how far from all faces of the other one, also of those that lie within a
+/// solid or bound nothing. `least` is proven all the same, and the lesser for it: of a deepest point beside which the solid is not
+/// found nothing comes. After `move` no faces touch at all.
+///
+/// `a` and `b` are what `relation` takes but for spheres and capsules, and are refused as there. The same bits on every policy and number of threads. Memory
 /// and time as of `hausdorff`; besides, some hundred queries of whether both touch. Returns when all is known; under `cuda` it
 /// waits for the policy's stream. Throws as `relation` and `hausdorff` do.
 ///
@@ -278,13 +309,10 @@ template <execution_policy Policy, class X, class Y>
         detail::unit_of_search::check_tolerance(options.tolerance, function);
         detail::faces_of_solids<T> faces(detail::faces_on_host(on, detail::make_operand(on, a, function)),
                                       detail::faces_on_host(on, detail::make_operand(on, b, function)));
-        const solid_options known{.known_solid = options.known_solid};
+        const solid_options known{.known_solid = options.known_solid, .rule = options.rule};
         const detail::solids_by_policy<Policy, X, Y> solids(on, a, b, function, &faces);
         if (!detail::common_interior<filtered>(function, known).find(solids).found.both) return penetration_bounds<T>();
-        const auto of_a = detail::triangles_of_faces(faces.first), of_b = detail::triangles_of_faces(faces.second);
-        return detail::bounds_of_overlap<Policy, T>(on, of_a, of_b,
-                                                    detail::vertices_of_parts(detail::solid_surface<T>(std::move(faces.first), function)),
-                                                    detail::vertices_of_parts(detail::solid_surface<T>(std::move(faces.second), function)), options);
+        return detail::bounds_of_overlap<Policy, T>(on, faces.first, faces.second, options);
     }
 }
 

@@ -44,6 +44,14 @@ struct name_of_solid {
     [[nodiscard]] std::string operator()(std::uint32_t i) const { return what + (" " + std::to_string(position(i))) + ", face"; }
 };
 
+/// What has been found out of a body, on the host.
+template <scalar T>
+struct body_on_host {
+    std::optional<std::pair<std::vector<mesh_face<T>>, aabb<T>>> faces;  ///< and the box around them
+    std::unique_ptr<solid_on_host<T>> solid;
+    std::unique_ptr<winding_surface<T>> by_rule;
+};
+
 /// Bodies on the host, each made when it is asked for.
 template <class Policy, class Index, class Name>
 class bodies_on_host {
@@ -51,26 +59,29 @@ public:
     using T = typename Index::scalar_type;
     static constexpr bool are_of_triangles = is_triangle<shape_in_world<Index>>;
 
-    bodies_on_host(const Policy& on, const placed_bodies<Index>& all, const char* function, const Name& name)
-        : on_(on), objects_(*all.objects), function_(function), name_(name), object_of_(all.size()), poses_(all.size()),
-          faces_(all.size()), made_(all.size()), by_rule_(all.size()), one_part_(all.objects->indices.size()), is_closed_(one_part_.size(), 0) {
+    /// `known` has place for as many bodies, and may know them already.
+    bodies_on_host(const Policy& on, const placed_bodies<Index>& all, const char* function, const Name& name, body_on_host<T>* known)
+        : on_(on), objects_(*all.objects), function_(function), name_(name), object_of_(all.size()), poses_(all.size()), known_(known),
+          one_part_(all.objects->indices.size()), is_closed_(one_part_.size(), 0) {
         download(on, all.objects->object_of.data(), all.size(), object_of_.data());
         download(on, all.poses->data(), all.size(), poses_.data());
     }
     const solid_on_host<T>& operator[](std::uint32_t i) {
-        if (!made_[i]) made_[i] = std::make_unique<solid_on_host<T>>(faces(i).first, function_, name_(i));
-        return *made_[i];
+        auto& solid = known_[i].solid;
+        if (!solid) solid = std::make_unique<solid_on_host<T>>(faces(i).first, function_, name_(i));
+        return *solid;
     }
     /// The faces of a body, and the box around them.
     const std::pair<std::vector<mesh_face<T>>, aabb<T>>& faces(std::uint32_t i) {
-        if (!faces_[i]) {
+        auto& known = known_[i].faces;
+        if (!known) {
             const auto shapes = view_of(objects_.indices[object_of_[i]].set());
             const placed_shapes<std::remove_const_t<decltype(shapes)>> placed{{shapes, poses_[i]}};
             auto all = faces_on_host(on_, placed);
             const aabb<T> box = box_of(all);
-            faces_[i].emplace(std::move(all), box);
+            known.emplace(std::move(all), box);
         }
-        return *faces_[i];
+        return *known;
     }
     /// Throws where a body is not closed that is to be taken by a rule. That is the same of all bodies of an index.
     void require_turns_of(std::uint32_t i, inside_rule rule) {
@@ -78,8 +89,9 @@ public:
     }
     /// A body that is taken by a rule.
     const winding_surface<T>& by_rule(std::uint32_t i) {
-        if (!by_rule_[i]) by_rule_[i] = std::make_unique<winding_surface<T>>(faces(i).first);
-        return *by_rule_[i];
+        auto& surface = known_[i].by_rule;
+        if (!surface) surface = std::make_unique<winding_surface<T>>(faces(i).first);
+        return *surface;
     }
     /// A box around a body, which may be larger than that around its faces.
     [[nodiscard]] aabb<T> known_box(std::uint32_t i) const {
@@ -114,9 +126,7 @@ private:
     Name name_;
     std::vector<std::uint32_t> object_of_;
     std::vector<rigid<T>> poses_;
-    std::vector<std::optional<std::pair<std::vector<mesh_face<T>>, aabb<T>>>> faces_;
-    std::vector<std::unique_ptr<solid_on_host<T>>> made_;
-    std::vector<std::unique_ptr<winding_surface<T>>> by_rule_;
+    body_on_host<T>* known_;
     std::vector<std::optional<bool>> one_part_;  ///< of each index
     std::vector<char> is_closed_;                ///< of each index: that was looked at
 };
@@ -155,14 +165,19 @@ class solid_entries {
 public:
     using T = typename Pairing::T;
 
-    /// `what`: how a body is called in messages, by its position of either side.
+    /// `what`: how a body is called in messages, by its position of either side. `known_a` and `known_b` have what is known of the
+    /// bodies of either side, and keep what is found out; or null.
     solid_entries(const Policy& on, const Pairing& pairing, const char* function, const char* what, const Position& position_a,
-                  const Position& position_b)
-        : on_(on), pairing_(pairing), function_(function), bodies_(pairing.members.size()), a_(on, pairing.a, function, {what, position_a}) {
+                  const Position& position_b, body_on_host<T>* known_a = nullptr, body_on_host<T>* known_b = nullptr)
+        : on_(on), pairing_(pairing), function_(function), bodies_(pairing.members.size()),
+          own_(known_a == nullptr ? pairing.a.size() + pairing.b.size() : 0),
+          a_(on, pairing.a, function, {what, position_a}, known_a == nullptr ? own_.data() : known_a) {
         download(on, pairing.bodies.data(), bodies_.size(), bodies_.data());
         const bool is_one = static_cast<const void*>(pairing.a.objects.get()) == static_cast<const void*>(pairing.b.objects.get()) &&
                             static_cast<const void*>(pairing.a.poses.get()) == static_cast<const void*>(pairing.b.poses.get());
-        if (!is_one) b_.emplace(on, pairing.b, function, name_of_solid<Position>{what, position_b});
+        if (is_one) return;
+        b_.emplace(on, pairing.b, function, name_of_solid<Position>{what, position_b},
+                   known_b == nullptr ? own_.data() + pairing.a.size() : known_b);
     }
     solid_entries(const solid_entries&) = delete;
     solid_entries& operator=(const solid_entries&) = delete;
@@ -275,6 +290,7 @@ private:
     const Pairing& pairing_;
     const char* function_;
     std::vector<index_pair> bodies_;
+    std::vector<body_on_host<T>> own_;
     side<index_a> a_;
     std::optional<side<index_b>> b_;
 };
@@ -334,13 +350,15 @@ struct positions_from {
     std::size_t first;
     std::size_t operator()(std::size_t i) const { return first + i; }
 };
-/// What is told of a scene of one kind, or of two kinds in one of several, in a part of the search.
+/// What is told of a scene of one kind, or of two kinds in one of several, in a part of the search. `known`: of all bodies of
+/// the scene of several kinds.
 template <execution_policy Policy, class Question, class Scene, class Which, class Part = whole_search>
 auto ask_solid_scene(const Policy& on, const Question& question, const Scene& scene, const Which& which, const Part& part = {},
-                     const bodies_of_parts& names = {}) {
+                     const bodies_of_parts& names = {}, body_on_host<typename solids_in_scene<Scene>::T>* known = nullptr) {
     const auto pairing = whole(scene).pair_up(on, touching{}, with_filter(which, keep_all{}), true, question.function, part);
     solid_entries<Policy, std::remove_const_t<decltype(pairing)>, positions_from> entries(
-        on, pairing, question.function, "body", positions_from{names.first_a}, positions_from{names.first_b});
+        on, pairing, question.function, "body", positions_from{names.first_a}, positions_from{names.first_b},
+        known == nullptr ? nullptr : known + names.first_a, known == nullptr ? nullptr : known + names.first_b);
     auto answers = question.find(entries);
     std::vector<typename Question::template told<typename solids_in_scene<Scene>::T>> found;
     for (std::size_t i = 0; i < entries.size(); ++i) {
@@ -364,9 +382,11 @@ void sort_told(std::vector<Told>& all) {
 template <execution_policy Policy, class Question, class... Indices, class Which>
 auto ask_solid_scene(const Policy& on, const Question& question, const mixed_bodies<Indices...>& all, const Which& which) {
     require_same_device(on, all, question.function);
-    std::vector<typename Question::template told<typename mixed_bodies<Indices...>::scalar_type>> found;
+    using T = typename mixed_bodies<Indices...>::scalar_type;
+    std::vector<typename Question::template told<T>> found;
+    std::vector<body_on_host<T>> known(all.size());
     for_each_two_parts(all, [&](const auto& two) {
-        auto some = ask_solid_scene(on, question, two.scene(), options_of_part(which, two.names), whole_search{}, two.names);
+        auto some = ask_solid_scene(on, question, two.scene(), options_of_part(which, two.names), whole_search{}, two.names, known.data());
         std::move(some.begin(), some.end(), std::back_inserter(found));
         return false;
     });

@@ -4,8 +4,8 @@
 // spans: the stretches of rays that are inside of a closed mesh. A ray is asked for all faces that it meets, where the policy
 // works; what that means for the inside is found on the host. For how far away one face is, ask raycast.
 //
-// Of a ray that passes through the inner of each face, at times that round to different numbers, every second stretch between
-// hits is inside. Of any other one times are compared as ratios of integers. Between two of them that follow each other the ray
+// Of a ray that passes through the inner of each face, at times that round to different numbers, how often the surface goes round
+// a stretch between hits says the ways in which it passes the faces from there on. Of any other one times are compared as ratios of integers. Between two of them that follow each other the ray
 // is in the surface all along, if a face in one plane with it covers the stretch, or meets it nowhere. Then what is true of a
 // point there is true of all points near it, and so of one that is moved by (e, e^2, e^3) for all small e > 0. The ray from that
 // one passes through the inner of faces alone, and of how many faces decides, by which side of the ray each edge is on: signs
@@ -81,18 +81,42 @@ struct name_met_face {
     }
 };
 
-/// Whether a ray certainly passes through the inner of a face.
+/// 1 if a ray certainly passes through the inner of a face the way that the face looks, -1 against it; 0 if neither is certain.
 template <scalar T>
-bool surely_passes(const ray<T>& r, const triangle<T>& t) {
+int surely_passes(const ray<T>& r, const triangle<T>& t) {
     const vec3<double> a = edge_between<true>(r.origin, t.a), b = edge_between<true>(r.origin, t.b),
                        c = edge_between<true>(r.origin, t.c), d = widened(r.direction);
     const double to_a = magnitudes(a), to_b = magnitudes(b), to_c = magnitudes(c), length = magnitudes(d);
     const double reach = to_a + to_b + to_c + length;
-    if (!(reach < difference_limit<double>)) return false;
+    if (!(reach < difference_limit<double>)) return 0;
     const double ab = dot(cross(a, b), d), bc = dot(cross(b, c), d), ca = dot(cross(c, a), d);
     const double error = determinant_error<double> * greatest(to_a * to_b, to_b * to_c, to_c * to_a) * length + flushed_in_three<T>(reach);
-    return least(ab, bc, ca) > error || greatest(ab, bc, ca) < -error;
+    return least(ab, bc, ca) > error ? 1 : greatest(ab, bc, ca) < -error ? -1 : 0;
 }
+
+/// Stretches of one ray, which are told where it begins or ends to be inside.
+template <class Span>
+class span_writer {
+public:
+    span_writer(decltype(Span::ray) ray, std::vector<Span>& out) : ray_(ray), out_(out) {}
+    template <class Id, scalar T>
+    void put(bool is_inside, Id face, T t) {
+        if (is_inside == was_inside_) return;
+        was_inside_ = is_inside;
+        const auto id = static_cast<decltype(Span::enter)>(face);
+        if (is_inside) {
+            out_.push_back({ray_, id, Span::no_face, t, t});
+        } else {
+            out_.back().leave = id;
+            out_.back().to = t;
+        }
+    }
+
+private:
+    decltype(Span::ray) ray_;
+    std::vector<Span>& out_;
+    bool was_inside_ = false;
+};
 
 /// The stretches of one ray, from all that it meets, in exact numbers.
 template <class Span>
@@ -138,33 +162,26 @@ public:
         }
         ranks_ = rank + 1;
     }
-    void append(decltype(Span::ray) number_of_ray, std::vector<Span>& out) const {
-        std::vector<char> odd(ranks_ + 1, 0);       // after rank i: faces passed from rank i on, or not
-        std::vector<int> covered(ranks_ + 1, 0);    // stretches in the surface that begin at rank i, less those that end
-        std::vector<std::size_t> first(ranks_, n_);  // the hit of the least face at a rank
+    void append(inside_rule rule, span_writer<Span> to) const {
+        std::vector<std::int32_t> turns(ranks_ + 1, 0);  // of faces passed from rank i on: how often the surface goes round what is before
+        std::vector<int> covered(ranks_ + 1, 0);         // stretches in the surface that begin at rank i, less those that end
+        std::vector<std::size_t> first(ranks_, n_);      // the hit of the least face at a rank
         for (std::size_t k = 0; k < n_; ++k) {
-            odd[begin_[k]] ^= passes_[k];
+            turns[begin_[k]] += passes_[k];
             ++covered[begin_[k]];
             --covered[end_[k]];
             std::size_t& least = first[begin_[k]];
             if (least == n_ || hits_[k].id < hits_[least].id) least = k;
         }
-        for (std::size_t i = ranks_; i-- > 0;) odd[i] ^= odd[i + 1];
-        bool was_inside = false;
+        for (std::size_t i = ranks_; i-- > 0;) turns[i] += turns[i + 1];
         int in_surface = 0;
         for (std::size_t i = 0; i < ranks_; ++i) {
             in_surface += covered[i];
-            const bool is_inside = in_surface == 0 && odd[i + 1] != 0;
-            if (is_inside == was_inside) continue;
-            was_inside = is_inside;
-            const std::size_t k = first[i];
-            const auto id = k < n_ ? static_cast<decltype(Span::enter)>(hits_[k].id) : Span::no_face;
-            const T t = k < n_ ? hits_[k].t() : T{0};
-            if (is_inside) {
-                out.push_back({number_of_ray, id, Span::no_face, t, t});
+            const bool is_inside = in_surface == 0 && is_in_by(rule, turns[i + 1]);
+            if (const std::size_t k = first[i]; k < n_) {
+                to.put(is_inside, hits_[k].id, hits_[k].t());
             } else {
-                out.back().leave = id;
-                out.back().to = t;
+                to.put(is_inside, Span::no_face, T{0});
             }
         }
     }
@@ -188,7 +205,7 @@ private:
                 while (*sign == 0) ++sign;
                 sides += *sign;
             }
-            passes_[k] = sides == 3 || sides == -3;
+            passes_[k] = static_cast<signed char>(sides / 3);  // all alike, or it does not pass
             return;
         }
         // In one plane with the ray: from where to where it is in the face.
@@ -218,21 +235,29 @@ private:
     std::size_t n_, ranks_ = 0;
     way along_;
     std::vector<std::size_t> begin_, end_;  ///< of each hit, among the different times
-    std::vector<char> passes_;
+    std::vector<signed char> passes_;           ///< as of surely_passes
 };
 
-/// The stretches of one ray, from the n > 0 faces that it meets, in their order.
+/// The stretches of one ray, from the n > 0 faces that it meets, in their order. `passes` is scratch.
 template <class Span, scalar T>
-void append_spans(const ray<T>& r, decltype(Span::ray) number, const met_face<T>* hits, std::size_t n, std::vector<Span>& out) {
+void append_spans(const ray<T>& r, decltype(Span::ray) number, const met_face<T>* hits, std::size_t n, inside_rule rule,
+                  std::vector<signed char>& passes, std::vector<Span>& out) {
     if (is_zero(r.direction.x) && is_zero(r.direction.y) && is_zero(r.direction.z)) return;
+    span_writer<Span> to(number, out);
+    passes.assign(n, 0);
+    std::int32_t turns = 0;
     bool is_plain = hits[0].t() > 0;
     for (std::size_t k = 0; k < n && is_plain; ++k) {
-        is_plain = (k == 0 || hits[k - 1].t() < hits[k].t()) && surely_passes(r, hits[k].corners);
+        passes[k] = static_cast<signed char>(surely_passes(r, hits[k].corners));
+        turns += passes[k];
+        is_plain = passes[k] != 0 && (k == 0 || hits[k - 1].t() < hits[k].t());
     }
-    if (!is_plain) return exact_spans<Span>(r, hits, n).append(number, out);
-    const auto id = [&](std::size_t k) { return static_cast<decltype(Span::enter)>(hits[k].id); };
-    if (n % 2 == 1) out.push_back({number, Span::no_face, id(0), 0, hits[0].t()});
-    for (std::size_t k = n % 2; k < n; k += 2) out.push_back({number, id(k), id(k + 1), hits[k].t(), hits[k + 1].t()});
+    if (!is_plain) return exact_spans<Span>(r, hits, n).append(rule, to);
+    to.put(is_in_by(rule, turns), Span::no_face, T{0});
+    for (std::size_t k = 0; k < n; ++k) {
+        turns -= passes[k];
+        to.put(is_in_by(rule, turns), hits[k].id, hits[k].t());
+    }
 }
 
 template <arithmetic A>
@@ -258,14 +283,16 @@ struct ask_spans : question_of_lines<no_ray_options, ask_spans<A>> {
     }
     template <class Policy, class X, class Lines>
     void check(const Policy& on, const X& x, const Lines& lines, const char* holder) const {
-        const ask_inside<A> look{{}, function, {.known_closed = surface.known_closed, .check = surface.check}};
+        // Hits in parts come together, so that any rule will do there.
+        const inside_rule rule = holder == nullptr ? surface.rule : inside_rule::parity;
+        const ask_inside<A> look{{}, function, {.known_closed = surface.known_closed, .rule = rule, .check = surface.check}};
         look.check(on, x, lines, holder);
     }
     template <class Policy, class X, class Lines>
     auto at_once(const Policy& on, const X& x, const Lines& lines, double) const {
         using T = typename std::remove_cvref_t<decltype(lines.shapes())>::scalar_type;
         const result<met_face<T>, space_of<Policy>> met(ask(on, x, lines, name_timed_hit{same_number{}, same_key{}}));
-        return finish<ray_span<T>>(on, lines, met, 0);
+        return this->template finish<ray_span<T>>(on, lines, met, 0);
     }
     template <class Policy, class X, class Lines, class Name>
     auto ask(const Policy& on, const X& x, const Lines& lines, const Name& name) const {
@@ -275,10 +302,11 @@ struct ask_spans : question_of_lines<no_ray_options, ask_spans<A>> {
                                                                           name_met_face<view, Name>{shapes, name});
     }
     template <class Found, class Policy, class Lines, class Met>
-    static std::vector<Found> finish(const Policy& on, const Lines& lines, const Met& all_met, decltype(Found::ray) first_ray) {
-        std::vector<Found> found;
+    std::vector<Found> finish(const Policy& on, const Lines& lines, const Met& all_met, decltype(Found::ray) first_ray) const {
+        std::vector<Found> all_spans;
+        std::vector<signed char> passes;
         const std::size_t n = all_met.size();
-        if (n == 0) return found;
+        if (n == 0) return all_spans;
         const auto asked = lines.shapes();
         using line = typename std::remove_const_t<decltype(asked)>::shape_type;
         const auto met = to_host(all_met);
@@ -286,9 +314,9 @@ struct ask_spans : question_of_lines<no_ray_options, ask_spans<A>> {
         for (std::size_t first = 0, last = 0; first < n; first = last) {
             const std::uint32_t number = met[first].line;
             while (last < n && met[last].line == number) ++last;
-            append_spans<Found>(all[number], first_ray + number, met.data() + first, last - first, found);
+            append_spans<Found>(all[number], first_ray + number, met.data() + first, last - first, surface.rule, passes, all_spans);
         }
-        return found;
+        return all_spans;
     }
 };
 
@@ -297,20 +325,21 @@ struct ask_spans : question_of_lines<no_ray_options, ask_spans<A>> {
 /// The stretches of each of `rays` that are inside of a closed mesh: a std::vector of `ray_span` in host memory, sorted by the
 /// ray's number, then along the ray. A ray that has no point inside has none.
 ///
-/// Inside is what `inside` says with its rule of parity. A stretch goes on where the ray touches the surface in single points
-/// and is inside before and after; it ends where the ray leaves, and where it goes on in the surface, in a face or along an edge.
+/// Inside is what `inside` says by the same `rule`, so that by `nonzero` bodies of one mesh that overlap are one. A stretch goes on
+/// where the ray touches the surface in single points and is inside before and after, as where it passes a face within the solid; it
+/// ends where the ray leaves, and where it goes on in the surface, in a face or along an edge.
 /// So a ray through a vertex where 64 faces meet has one stretch in a sphere; one that touches a solid in a vertex, an edge or
 /// a face from outside has none; and one that lies in the common wall of two rooms has none there.
 ///
 /// Number and order are exact, for every finite input, with `filtered` as with `exact`, and all is the same on every policy.
 /// Places are the times that `raycast` tells, so that two that differ by less than rounding are equal numbers. `mesh` and
-/// `options` are as of `inside`, but for the rule; `rays` as of `raycast`, but no segments. A ray without a direction has no stretch. Segments
-/// and lists of bodies are not taken.
+/// `options` are as of `inside`; `rays` as of `raycast`, but no segments. A ray without a direction has no stretch. Segments and lists
+/// of bodies are not taken.
 ///
 /// Of several devices (@ref devices) the mesh is on each, or divided; each device finds the hits of its share of the rays, or those
 /// in its part. Of ranks (@ref distributed) a row is a `global_ray_span` of the rank's own rays, and the lists of all ranks, one
 /// after another, are the list of one machine; hits go where their rays are, as those of `raycast_all`, 56 or 96 bytes each. Of a
-/// mesh in parts nobody can see whether it is closed: say `{.known_closed = true}`.
+/// mesh in parts nobody can see whether it is closed: say `{.known_closed = true}`. Any `rule` will do there too.
 ///
 /// @par Memory
 /// As in @ref queries. The result takes 20 bytes a stretch in float and 32 in double. Scratch is that of `raycast_all`, 56 bytes a

@@ -334,10 +334,6 @@ private:
         }
         return true;
     }
-    [[nodiscard]] bool is_in(int turns) const {
-        return answer_of_crossings<containment>(turns, false, rule_) == containment::inside;
-    }
-
     /// The cells at a corner, by what they are in.
     [[nodiscard]] unsigned cells_at(const spot& s) const {
         const place_in_space v = place_of(s);
@@ -419,7 +415,7 @@ private:
                 const int up = open[i].up;
                 if (sign(0) == up && sign(1) == up && sign(2) == up && sign(3) == -up) turns[open[i].second ? 1 : 0] += up;
             }
-            const bool in_a = is_in(turns[0]), in_b = is_in(turns[1]);
+            const bool in_a = is_in_by(rule_, turns[0]), in_b = is_in_by(rule_, turns[1]);
             cells |= in_a && in_b ? in_both : in_a ? in_first : in_b ? in_second : in_none;
         }
         return cells;
