@@ -59,6 +59,16 @@ TEST_CASE("contacts of cylinders and cones with hulls: by hand, and in constant 
     CHECK(intersects(deep->point, h));
 }
 
+// A triangle lies along the side of a cylinder, and the disc's plane is asked for the farthest points: what is left of its normal
+// across the axis is no more than rounding, and leads to none of the disc's points.
+TEST_CASE("contacts of cylinders and cones with hulls: where a flat end is seen straight on, a shorter move is found") {
+    const std::vector<vec3<float>> p{{-37, -16, 39}, {-41, -9, 25}, {-51, 31, -19}}, q{{-8, 46, -32}, {-21, 32, -34}, {-13, 42, -30}};
+    const auto first = contact_of(cylinder<float>{{{-1, -4, 0}, {2, 0x1.000002p+1F, 6}}, 45}, hull<float>(p.data(), p.size()));
+    const auto second = contact_of(cylinder<float>{{{4, 4, -5}, {16, 0x1.400002p+3F, -17}}, 45}, hull<float>(q.data(), q.size()));
+    CHECK(first.value().depth < 1e-4F);
+    CHECK(second.value().depth < 1e-4F);
+}
+
 // Where the search does not end at a triangle that touches, it is found by questions about parts of the hull: their number has a
 // bound. All is tangent in exact numbers, and turned by a matrix of whole numbers that is three times a rotation.
 TEMPLATE_TEST_CASE("contacts of cylinders and cones with hulls: a touching triangle takes few questions", "", cylinder<double>,

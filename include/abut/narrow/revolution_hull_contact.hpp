@@ -221,13 +221,18 @@ ABUT_HD constexpr vec3<T> shared_point_of(const S& s, const hull<T>& h) {
     return with_measured_hulls(h, axis, true, [](const auto& m) { return m.shared_point(); });
 }
 
+/// As of hulls, whether they touch or not.
+template <solid_of_revolution S, scalar T>
+requires std::same_as<T, scalar_type_of<S>> ABUT_HD constexpr contact_in_doubles<T> search_contact(const S& s, const hull<T>& h) {
+    return is_point(axis_of(s)) ? contact_in_doubles<T>{} : find_contact_in_doubles(s, h, true);
+}
+
 /// The normal points to the solid.
 template <solid_of_revolution S, scalar T>
 requires std::same_as<T, scalar_type_of<S>> ABUT_HD constexpr contact<T> contact_between(const S& s, const hull<T>& h) {
     if (is_point(axis_of(s))) return contact_with_ball(ball_around(s), h);
     const contact_math::common_scale scale(s, h);
-    contact<T> in_doubles{};
-    if (find_contact_in_doubles(s, h, in_doubles)) return in_doubles;
+    if (const auto known = find_contact_in_doubles(s, h); known.is_known) return known.found;
     contact<T> found = contact_math::assembled<T>(scale, {0, 0, 0}, way_out_of_hull(s, h, scale));
     found.point = shared_point_of(s, h);
     return found;
