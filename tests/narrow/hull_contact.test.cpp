@@ -5,6 +5,7 @@
 #include <abut/predicate/within.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <iterator>
@@ -205,6 +206,27 @@ TEMPLATE_TEST_CASE("contacts of hulls: with planes", "", float, double) {
 }
 
 // Many points: directions at random have no lesser overlap, but for what the bound on the polytope's corners leaves.
+// A sphere around a place that is as far from a corner as it is wide, but for what is rounded: whether there is a contact is told
+// by no search in doubles.
+TEMPLATE_TEST_CASE("contacts of hulls: spheres that all but touch", "", float, double) {
+    using T = TestType;
+    const vec3<T> points[] = {{3, 0, 0}, {-3, 0, 0}, {0, 3, 0}, {0, -3, 0}, {0, 0, 3}, {0, 0, -3}, {0, 0, 0}};
+    const hull<T> h(points, 7);
+    test::draws d(test::sample_seed, 31, 0);
+    int touching = 0, wrong = 0;
+    for (int k = 0; k < 400; ++k) {
+        const double y = d.uniform(-0.25, 0.25), z = d.uniform(-0.25, 0.25), length = std::sqrt(1 + y * y + z * z), r = d.uniform(0.5, 2);
+        const auto radius = static_cast<T>(r);
+        const vec3<double> way{r / length, r * y / length, r * z / length};
+        const sphere<T> s{{static_cast<T>(3 + way.x), static_cast<T>(way.y), static_cast<T>(way.z)}, radius};
+        const bool touch = intersects<exact>(h, s);
+        touching += touch ? 1 : 0;
+        wrong += contact_of(h, s).has_value() != touch || contact_of(s, h).has_value() != touch ? 1 : 0;
+    }
+    CHECK(wrong == 0);
+    CHECK((touching > 100 && touching < 300));
+}
+
 TEMPLATE_TEST_CASE("contacts of hulls: of many points, deep in each other", "", float, double) {
     using T = TestType;
     double worst = 0, worst_shallow = 0;

@@ -58,7 +58,7 @@ struct tally {
 TEMPLATE_TEST_CASE("an oriented box and what is near it", "", float, double) {
     using T = TestType;
     draws d;
-    tally of_triangles, of_capsules, of_boxes;
+    tally of_triangles, of_capsules, of_boxes, of_spheres;
     for (const double far : {0.0, 1.0, 0x1p10, 0x1p20}) {
         for (int i = 0; i < 4000; ++i) {
             const vec3<T> at = d.place<T>(far);
@@ -68,9 +68,10 @@ TEMPLATE_TEST_CASE("an oriented box and what is near it", "", float, double) {
             of_triangles.add(s, triangle<T>{a, a + d.place<T>(1), a + d.place<T>(1)});
             of_capsules.add(s, capsule<T>{{a, a + d.place<T>(1)}, static_cast<T>(d(0, 1))});
             of_boxes.add(s, d.box(near(1.25)));
+            of_spheres.add(s, sphere<T>{a, static_cast<T>(d(0, 1))});
         }
     }
-    for (const tally& of : {of_triangles, of_capsules, of_boxes}) {
+    for (const tally& of : {of_triangles, of_capsules, of_boxes, of_spheres}) {
         CHECK(of.wrong == 0);
         CHECK(of.known > of.pairs / 2);
         CHECK(of.yes > of.pairs / 25);
@@ -83,7 +84,7 @@ TEMPLATE_TEST_CASE("an oriented box and what all but touches it", "", float, dou
     // A point of a face of the box, a unit in the last place or a few of them farther or less far, is a corner of the other shape,
     // which lies outside. Some numbers are as large or as small as they come.
     draws d;
-    tally all;
+    tally all, of_spheres;
     const int least = std::is_same_v<T, float> ? -120 : -1000, most = std::is_same_v<T, float> ? 120 : 1000;
     for (int i = 0; i < 12000; ++i) {
         oriented_box<T> s = d.box(d.place<T>(i % 4 == 0 ? 0x1p12 : 1));
@@ -99,6 +100,7 @@ TEMPLATE_TEST_CASE("an oriented box and what all but touches it", "", float, dou
         all.add(s, triangle<T>{tip, beside(), beside()});
         const T radius = std::sqrt(dot(T(0.25) * out, T(0.25) * out));
         all.add(s, capsule<T>{{tip + T(0.25) * out, beside()}, radius});
+        of_spheres.add(s, sphere<T>{tip + T(0.25) * out, radius});
         oriented_box<T> t = s;
         t.center = s.center + (tip - s.center) + T(0.999) * (corners.at[(i % 8) ^ 7] - s.center) + (tip - on);
         all.add(s, t);
@@ -106,6 +108,9 @@ TEMPLATE_TEST_CASE("an oriented box and what all but touches it", "", float, dou
     CHECK(all.wrong == 0);
     CHECK(all.known > all.pairs / 4);
     CHECK(all.known < all.pairs);
+    CHECK(of_spheres.wrong == 0);
+    CHECK(of_spheres.known > of_spheres.pairs / 4);
+    CHECK(of_spheres.known < of_spheres.pairs);
 }
 
 TEMPLATE_TEST_CASE("an oriented box reaches all that it touches", "", float, double) {

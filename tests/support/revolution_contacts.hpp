@@ -222,6 +222,7 @@ const char* wrong_with_contact(const S& s, const U& t, bool search, contact_figu
     if (!touch) return nullptr;
     const contact<T>& c = *found;
     if (back.value() != detail::reversed(c)) return "the other order is not the reverse";
+    if (contact_of<exact>(s, t) != found) return "it is another one where it was asked first whether they touch";
     ++sum.touching;
     for (const T x : {c.point.x, c.point.y, c.point.z, c.normal.x, c.normal.y, c.normal.z, c.depth}) {
         if (!detail::is_finite(x)) return "a number is not finite";

@@ -117,9 +117,27 @@ ABUT_INLINE ABUT_HD constexpr first_contact<T> first_contact_in_any_order(const 
     }
 }
 
+/// Those of which a search for the contact tells early that they touch, but for boxes with what a filter knows of them sooner.
+template <class S, class U>
+concept has_searched_contact = !requires(const S& s, const U& t) { near_oriented(s, t); } &&
+                               requires(const hull_form_of<S>& s, const hull_form_of<U>& t) { search_contact(s, t); };
+
 /// Decided, and asked, where the closed form does not tell.
 template <arithmetic A, scalar T, class S, class U>
 ABUT_NOINLINE ABUT_HD constexpr optional_contact<T> contact_by_stages(const S& s, const U& t) {
+    if constexpr (std::same_as<A, filtered> && has_searched_contact<S, U>) {
+        if (!ABUT_CONSTANT_EVALUATED()) {  // nothing may overflow there
+            const auto a = hull_form(s);
+            const auto b = hull_form(t);
+            const contact_in_doubles<T> known = search_contact(a.as_hull(), b.as_hull());
+            if (known.touch == verdict::no) return {};
+            if (known.touch == verdict::yes && known.is_known) return known.found;
+        }
+    } else if constexpr (std::same_as<A, filtered> && has_searched_contact<U, S>) {
+        const optional_contact<T> found = contact_by_stages<A, T>(t, s);
+        if (!found) return {};
+        return reversed(*found);
+    }
     if (!intersects<A>(s, t)) return {};
     return contact_in_any_order(s, t);
 }
@@ -140,7 +158,12 @@ template <arithmetic A = filtered, class S, class U>
     using T = decltype(found::depth);
     const auto& a = detail::as_stored(s);
     const auto& b = detail::as_stored(t);
-    if constexpr (std::same_as<A, filtered> && detail::has_early_contact<S, U>) {
+    constexpr bool is_searched = detail::has_searched_contact<S, U> || detail::has_searched_contact<U, S>;
+    if constexpr (std::same_as<A, filtered> && is_searched && !detail::has_early_contact<S, U>) {
+        const optional_contact<T> found_by_search = detail::contact_by_stages<A, T>(a, b);
+        if (!found_by_search) return optional_contact<T>();
+        return optional_contact<T>(*found_by_search);
+    } else if constexpr (std::same_as<A, filtered> && detail::has_early_contact<S, U>) {
         const auto first = detail::first_contact_in_any_order<T>(a, b);
         if (first.touch == verdict::no) return optional_contact<T>();
         if (first.touch == verdict::yes) return optional_contact<T>(first.found);

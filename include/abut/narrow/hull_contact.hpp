@@ -315,29 +315,39 @@ ABUT_HD constexpr contact_math::point least_way_of_hulls(const hull<T>& a, const
 }
 
 /// Of a hull, and one with a radius around it, as doubles know them. Where the cores do not touch, they go apart along the
-/// way between the points that are nearest to each other. False where they do not know it.
+/// way between the points that are nearest to each other.
 template <scalar T>
-ABUT_NOINLINE ABUT_HD constexpr bool find_contact_in_doubles(const hull<T>& a, const hull<T>& b, T radius, contact<T>& found) {
+ABUT_NOINLINE ABUT_HD constexpr contact_in_doubles<T> find_contact_in_doubles(const hull<T>& a, const hull<T>& b, T radius,
+                                                                                  bool may_be_apart = false) {
     using namespace contact_math;
     const point origin = widened(a[0]);
     const plain_points<T> seen_a(a, origin), seen_b(b, origin);
+    const auto around = static_cast<double>(radius);
     plain_simplex at;
-    const plain_nearest nearest = search_in_doubles(seen_a, seen_b, at);
-    if (!nearest.knows_shared_point()) return false;
+    contact_in_doubles<T> known;
+    if (may_be_apart && are_clearly_beyond(seen_a, seen_b, around)) {
+        known.touch = verdict::no;
+        return known;
+    }
+    const plain_nearest nearest = search_in_doubles(seen_a, seen_b, at, {0, 0, 0}, around);
+    if (nearest.are_surely_beyond(around)) known.touch = verdict::no;
+    if (!nearest.knows_shared_point()) return known;
     plain_way_out out{negated(nearest.along), -nearest.length, true};
     if (nearest.meet) {
         out = way_out_in_doubles<T>(seen_a, seen_b, at, nearest.size);
     } else {
-        if (!(radius > 0 && nearest.length > 0)) return false;
+        if (!(radius > 0 && nearest.length > 0)) return known;
     }
     const point n = as_stored_direction<T>(unit_vector(as<two_doubles>(out.normal)));
     const double overlap = plain_dot(n, plain_difference(seen_b.farthest(n), seen_a.farthest(negated(n))));
     const double enough = plain_product(0x1p-50 + static_cast<double>(unit_roundoff<T>) / 2, nearest.size);
-    if (!(out.is_sure && plain_sum(overlap, -out.depth) <= enough)) return false;
-    const double depth = plain_sum(overlap, static_cast<double>(radius));
-    found = {0, 0, from_seen<T>(origin, nearest.on_a), {static_cast<T>(n.x), static_cast<T>(n.y), static_cast<T>(n.z)},
+    if (!(out.is_sure && plain_sum(overlap, -out.depth) <= enough)) return known;
+    const double depth = plain_sum(overlap, around);
+    known.is_known = true;
+    if (known.touch == verdict::unknown) known.touch = touch_of_cores(nearest, out.depth, around);
+    known.found = {0, 0, from_seen<T>(origin, nearest.on_a), {static_cast<T>(n.x), static_cast<T>(n.y), static_cast<T>(n.z)},
              rounded_within<T>(depth > 0 ? depth : 0)};
-    return true;
+    return known;
 }
 
 /// The same, and in integers where doubles do not know it.
@@ -345,8 +355,7 @@ template <scalar T>
 ABUT_NOINLINE ABUT_HD constexpr contact<T> contact_of_hulls(const hull<T>& a, const hull<T>& b, T radius,
                                                             const contact_math::common_scale& scale) {
     using namespace contact_math;
-    contact<T> in_doubles{};
-    if (find_contact_in_doubles(a, b, radius, in_doubles)) return in_doubles;
+    if (const auto known = find_contact_in_doubles(a, b, radius); known.is_known) return known.found;
     using measured_pair = measured_hull_pair<T>;
     const measured_pair measured(a, T(0), b, radius);
     const auto& nearest = measured.nearest;
@@ -362,6 +371,22 @@ ABUT_NOINLINE ABUT_HD constexpr contact<T> contact_of_hulls(const hull<T>& a, co
     found.point = measured.point_on_a();
     return found;
 }
+
+/// What a search in doubles tells of a hull and another shape, of which it is not known whether they touch.
+///@{
+template <scalar T, has_core_points<T> S>
+ABUT_HD constexpr contact_in_doubles<T> search_contact(const hull<T>& h, const S& s) {
+    const auto core = core_points_of(s);
+    return find_contact_in_doubles(h, core.as_hull(), radius_around_core(s), true);
+}
+template <scalar T>
+ABUT_HD constexpr contact_in_doubles<T> search_contact(const hull<T>& a, const hull<T>& b) {
+    if (comes_before(a, b)) return find_contact_in_doubles(a, b, T(0), true);
+    contact_in_doubles<T> known = find_contact_in_doubles(b, a, T(0), true);
+    known.found = reversed(known.found);
+    return known;
+}
+///@}
 
 // All of shapes that are known to touch, with ids 0.
 

@@ -83,6 +83,32 @@ struct plain_box_feature {
     }
 };
 
+/// How far corners, as they are seen from the first one, are from sums of edges.
+ABUT_INLINE ABUT_HD constexpr double off_from_edges(const vec3<double> (&q)[8]) {
+    double off = 0;
+    for (int i = 3; i < 8; ++i) {
+        if (i == 4) continue;
+        vec3<double> sum{0, 0, 0};
+        for (int k = 1; k < 8; k *= 2) {
+            if ((i & k) != 0) sum = plain_step(sum, 1, q[k]);
+        }
+        off = greatest(off, plain_magnitudes(contact_math::plain_difference(q[i], sum)));
+    }
+    return off;
+}
+/// The most that it may be.
+template <scalar T>
+ABUT_INLINE ABUT_HD constexpr double most_off(T magnitude) {
+    return 8 * static_cast<double>(unit_roundoff<T>) * static_cast<double>(magnitude);
+}
+/// The normal of the faces across edge k, 0 to 2: along that edge, or of the second one against it.
+template <scalar T>
+ABUT_INLINE ABUT_HD constexpr vec3<double> normal_across(const vec3<double> (&q)[8], int k) {
+    using namespace contact_math;
+    const point v = plain_cross(q[k == 0 ? 2 : 1], q[k == 2 ? 2 : 4]);
+    return plain_normal<T>(plain_times(1 / root(one_double{plain_dot(v, v)}).high, v));
+}
+
 /// The corners of a box and a point, as they are seen from the first corner.
 template <scalar T>
 struct plain_corner_box : plain_box_feature<T> {
@@ -117,14 +143,7 @@ struct plain_corner_box : plain_box_feature<T> {
             return;
         }
         is_inside = true;
-        for (int i = 3; i < 8; ++i) {
-            if (i == 4) continue;
-            vec3<double> sum{0, 0, 0};
-            for (int k = 1; k < 8; k *= 2) {
-                if ((i & k) != 0) sum = plain_step(sum, 1, q[k]);
-            }
-            off = greatest(off, plain_magnitudes(plain_difference(q[i], sum)));
-        }
+        off = off_from_edges(q);
     }
     /// How far a corner lies along n.
     [[nodiscard]] ABUT_INLINE ABUT_HD constexpr double farthest(const vec3<double>& n) const {
@@ -188,15 +207,11 @@ ABUT_INLINE ABUT_HD constexpr first_contact<T> first_contact_of(const hull<T>& s
     };
     if (answer.touch == verdict::yes)
         return contact_of_feature<T>(both, overlap, [&](double excess) { return is_tolerable(excess, box.size / 25, s, t); });
-    const auto unit = [](const point& v) {
-        return plain_normal<T>(plain_times(1 / root(one_double{plain_dot(v, v)}).high, v));
-    };
-    if (box.is_inside &&
-        box.off <= 8 * static_cast<double>(unit_roundoff<T>) * static_cast<double>(greatest(magnitude_of(s), magnitude_of(t)))) {
+    if (box.is_inside && box.off <= most_off(greatest(magnitude_of(s), magnitude_of(t)))) {
         const double sure = plain_sum(radius, plain_sum(4 * box.off, 0x1p-44 * box.size));
         least_overlap way;
         for (int k = 0; k < 3; ++k) {
-            const point n = unit(plain_cross(box.q[k == 0 ? 2 : 1], box.q[k == 2 ? 2 : 4]));
+            const point n = normal_across<T>(box.q, k);
             const extent over = extent_of(box.q, n, point{0, 0, 0});
             const double amid = plain_dot(n, box.p), ahead = plain_sum(plain_sum(radius, -amid), over.upper),
                          behind = plain_sum(plain_sum(radius, amid), -over.lower);

@@ -340,36 +340,44 @@ ABUT_NOINLINE ABUT_HD constexpr plain_way_out least_move_in_doubles(const A& a, 
 }
 
 /// The contact of two shapes as the search sees them, b with a radius around it. Where these do not touch, they go apart
-/// along the way between the points that are nearest to each other. False where doubles do not know it.
+/// along the way between the points that are nearest to each other.
 template <scalar T, class A, class B>
-ABUT_NOINLINE ABUT_HD constexpr bool find_contact_as_seen(const A& a, const B& b, double radius, const vec3<double>& origin,
-                                                          contact<T>& found) {
+ABUT_NOINLINE ABUT_HD constexpr contact_in_doubles<T> find_contact_as_seen(const A& a, const B& b, double radius, const vec3<double>& origin,
+                                                                bool may_be_apart) {
     using namespace contact_math;
     // Points found from the middle, or an end, may lie in one plane with the origin, which leaves a polytope no room.
     plain_simplex at;
-    const plain_nearest nearest = search_in_doubles(a, b, at, {0.36, -0.48, 0.8});
-    if (!nearest.knows_shared_point()) return false;
+    contact_in_doubles<T> known;
+    if (may_be_apart && are_clearly_beyond(a, b, radius)) {
+        known.touch = verdict::no;
+        return known;
+    }
+    const plain_nearest nearest = search_in_doubles(a, b, at, {0.36, -0.48, 0.8}, radius);
+    if (nearest.are_surely_beyond(radius)) known.touch = verdict::no;
+    if (!nearest.knows_shared_point()) return known;
     plain_way_out out{negated(nearest.along), -nearest.length, nearest.length > 0x1p-20 * nearest.size && radius > 0};
     if (nearest.meet) out = least_move_in_doubles(a, b, at, nearest.size);
-    if (!out.is_sure) return false;
+    if (!out.is_sure) return known;
     const point n = plain_normal<T>(unit_vector(as<one_double>(out.normal)));
     const double overlap = plain_dot(n, plain_difference(b.farthest(n), a.farthest(negated(n)))),
                  enough = plain_product(0x1p-50 + 2 * static_cast<double>(unit_roundoff<T>), nearest.size);
-    if (!(plain_sum(overlap, -out.depth) <= enough)) return false;
-    found = plain_contact(from_seen<T>(origin, nearest.on_a), n, 0);
-    found.depth = rounded_within<T>(greatest(plain_sum(overlap, radius), 0.0));
-    return true;
+    if (!(plain_sum(overlap, -out.depth) <= enough)) return known;
+    known.is_known = true;
+    if (known.touch == verdict::unknown) known.touch = touch_of_cores(nearest, out.depth, radius);
+    known.found = plain_contact(from_seen<T>(origin, nearest.on_a), n, 0);
+    known.found.depth = rounded_within<T>(greatest(plain_sum(overlap, radius), 0.0));
+    return known;
 }
 
 /// The same of shapes whose axes have a length.
 template <class S, class U>
     requires searched_plainly<S, U>
-ABUT_HD constexpr bool find_contact_in_doubles(const S& s, const U& t, contact<scalar_type_of<S>>& found) {
+ABUT_HD constexpr auto find_contact_in_doubles(const S& s, const U& t, bool may_be_apart = false) {
+    using T = scalar_type_of<S>;
     const vec3<double> origin = widened(axis_of(s).a);
     double radius = 0;
     if constexpr (!solid_of_revolution<U>) radius = static_cast<double>(radius_around_core(t));
-    return with_seen_plainly(
-        s, t, origin, [&](const auto& a, const auto& b) { return find_contact_as_seen(a, b, radius, origin, found); });
+    return with_seen_plainly(s, t, origin, [&](const auto& a, const auto& b) { return find_contact_as_seen<T>(a, b, radius, origin, may_be_apart); });
 }
 
 }  // namespace abut::detail

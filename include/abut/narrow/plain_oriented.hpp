@@ -15,6 +15,11 @@
 // any corner that does not belong to it is behind by h_k 2^-9 H at least, or of a face by h_k of the length of that way, which is
 // more than products lose: whether all corners are behind is up to those of the feature.
 //
+// A point that is within the box by 2^-7 H at least leaves it through the face that is nearest in the box's frame, if the others
+// are farther by 2^-6 H: a normal of a face, across two edges, is within 3 2^-10 of a_k, so that how far the point is from the face
+// is known within 6.1 2^-10 H. So one normal of three is computed, and how far four corners of eight reach along it. All corners are
+// placed: whether they are near enough to a box's is told by them.
+//
 // Sizes are bounds of `size` of plain_box.hpp: that is between |d| + radius + 0.9 H and |d| + radius + 5.25 H, with sums of
 // magnitudes. What holds with the worse of both holds with it.
 
@@ -63,6 +68,7 @@ struct plain_oriented_box : plain_box_feature<T> {
     using plain_box_feature<T>::size;  ///< no less than of plain_corner_box
     double least_size = 0;             ///< no more than that
     int count = 0;                     ///< of the feature's corners
+    int across = -1, side = 0;         ///< the edge that a point inside leaves along, 0 to 2, if that is sure; 1 at its last end
     vec3<double> p, q[4];              ///< the point and these, as they are seen from the first corner, if `count` is above 1
 
     ABUT_NOINLINE ABUT_HD constexpr plain_oriented_box(const oriented_box<T>& s, const vec3<T>& center, double radius) {
@@ -73,12 +79,19 @@ struct plain_oriented_box : plain_box_feature<T> {
             beyond = absolute(at) - h, clear = absolute(beyond);
         const int free = (beyond.x < 0 ? 1 : 0) + (beyond.y < 0 ? 2 : 0) + (beyond.z < 0 ? 4 : 0);
         const double halves = h.x + h.y + h.z, margin = 0x1p-8 * halves;
-        if (free == 7 || !(least(clear.x, clear.y, clear.z) > margin)) return;
+        if (!(least(clear.x, clear.y, clear.z) > margin)) return;
         const double lowest = least(h.x, h.y, h.z), away = plain_magnitudes(d) + radius;
         size = away + 5.25 * halves;
         least_size = away + 0.9 * halves;
         const double lost = (std::same_as<T, float> ? 0x1p-22 : 0x1p-49) * (magnitudes(widened(s.center)) + halves) + 0x1p-49 * size;
         if (!(are_plain_sizes<T>(size) && lowest * halves > 0x1p13 * lost * size && lowest > 0x1p-30 * size)) return;
+        if (free == 7) {
+            const int k = clear.x <= clear.y && clear.x <= clear.z ? 0 : clear.y <= clear.z ? 1 : 2;
+            const double nearest_face = least(clear.x, clear.y, clear.z), along = k == 0 ? at.x : k == 1 ? at.y : at.z,
+                         others = least(nearest_face + 2 * absolute(along), k == 0 ? clear.y : clear.x, k == 2 ? clear.y : clear.z);
+            if (nearest_face > 2 * margin && others - nearest_face > 4 * margin && are_plain_sizes<T>(least_size)) across = k, side = along > 0;
+            return;
+        }
         corner_ = ((at.x > 0 ? 1 : 0) + (at.y > 0 ? 2 : 0) + (at.z > 0 ? 4 : 0)) & ~free;
         if (free == 0) {
             count = 1;
@@ -159,11 +172,40 @@ struct plain_pair<oriented_box<T>, U> : plain_gap {
     [[nodiscard]] ABUT_HD constexpr plain_place<T> on_b(const U& t) const { return {core_of(t).at[0]}; }
 };
 
+/// Of a point inside, with what is around it, as plain_box.hpp has it.
+template <scalar T, class U>
+ABUT_NOINLINE ABUT_HD constexpr first_contact<T> contact_through_face(const oriented_box<T>& s, const U& t, double radius,
+                                                                      const plain_oriented_box<T>& box) {
+    using namespace contact_math;
+    const vec3<T>& h = s.half;
+    const placed_box<T> placed = box_under(s.rotation, s.center, vec3<T>{-h.x, -h.y, -h.z}, h);
+    const vec3<T>(&corner)[8] = placed.corners;
+    vec3<double> q[8];
+    for (int i = 0; i < 8; ++i) q[i] = i == 0 ? vec3<double>{0, 0, 0} : plain_way_to(corner[0], corner[i]);
+    const double off = off_from_edges(q), halves = magnitudes(widened(h));
+    // The largest magnitude of all where that of two corners, which is no larger, does not tell.
+    const auto is_off_by_more = [&](T magnitude) { return off > most_off(magnitude); };
+    if (is_off_by_more(greatest(magnitude_of(corner[0]), magnitude_of(corner[7]))) &&
+        is_off_by_more(greatest(magnitude_of(points_of(placed).as_hull()), magnitude_of(t))))
+        return {};
+    if (4 * off + 0x1p-44 * box.size > 0x1p-10 * halves) return {};
+    const vec3<double> p = plain_way_to(corner[0], core_of(t).at[0]);
+    const point n = normal_across<T>(q, box.across);
+    const bool is_ahead = (box.side == 1) != (box.across == 1);
+    double most = -infinity<double>;  // along the way out
+    for (int i = 0; i < 8; ++i) {
+        if (((i >> box.across) & 1) == box.side) most = greatest(most, is_ahead ? plain_dot(n, q[i]) : -plain_dot(n, q[i]));
+    }
+    const double amid = plain_dot(n, p), depth = plain_sum(plain_sum(radius, is_ahead ? -amid : amid), most);
+    return {verdict::yes, plain_contact(core_of(t).at[0], is_ahead ? negated(n) : n, depth)};
+}
+
 template <scalar T, class U>
     requires has_plain_pair<oriented_box<T>, U>
 ABUT_INLINE ABUT_HD constexpr first_contact<T> first_contact_of(const oriented_box<T>& s, const U& t,
                                                                   const plain_pair<oriented_box<T>, U>& both) {
     using namespace contact_math;
+    if (both.box.across >= 0) return contact_through_face(s, t, both.radius_b, both.box);
     const verdict touch = both.touch();
     if (touch != verdict::yes) return first_contact<T>{touch};
     const auto overlap = [&](const vec3<double>& n) { return both.box.overlap(s, core_of(t).at[0], both.radius_b, n); };

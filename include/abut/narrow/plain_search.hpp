@@ -274,6 +274,20 @@ struct plain_nearest {
     }
 };
 
+/// What doubles know of a contact: whether two shapes touch, if that is sure; and if they do, it is `found` where that is known.
+template <scalar T>
+struct contact_in_doubles {
+    contact<T> found{};
+    verdict touch = verdict::unknown;
+    bool is_known = false;
+};
+
+/// Of shapes whose cores are found to meet so deep at least, or to be so far apart where there is a radius around one.
+ABUT_HD constexpr verdict touch_of_cores(const plain_nearest& nearest, double depth, double radius) {
+    const double less = 0x1p-20 * plain_sum(nearest.size, radius);
+    return (nearest.meet ? depth : plain_sum(radius, -nearest.length)) > less ? verdict::yes : verdict::unknown;
+}
+
 /// Up to four differences of points of b and a, and where their hull is nearest to the origin.
 struct plain_simplex {
     using point = vec3<double>;
@@ -487,10 +501,11 @@ ABUT_HD constexpr bool settles(const A& a, const B& b, const plain_guess& g, dou
 /// Sizes in whose range no square overflows, and what underflows is nothing beside the rest.
 ABUT_HD constexpr bool is_searched(double size) { return size > 0x1p-150 && size < 0x1p150; }
 
-/// Looks for it, from the farthest points along a way, or from any. Of a device one function, out of line.
+/// Looks for it, from the farthest points along a way, or from any, until they are farther apart than `far` for sure. Of a device
+/// one function, out of line.
 template <class A, class B>
-ABUT_NOINLINE ABUT_HD constexpr plain_nearest search_in_doubles(const A& a, const B& b, plain_simplex& at,
-                                                                vec3<double> along = {0, 0, 0}) {
+ABUT_NOINLINE ABUT_HD constexpr plain_nearest search_in_doubles(const A& a, const B& b, plain_simplex& at, vec3<double> along = {0, 0, 0},
+                                                                double far = infinity<double>) {
     using namespace contact_math;
     constexpr int most_steps = 40;
     plain_nearest found;
@@ -512,6 +527,7 @@ ABUT_NOINLINE ABUT_HD constexpr plain_nearest search_in_doubles(const A& a, cons
                 found.is_sure = true;
                 break;
             }
+            if (found.are_surely_beyond(far)) break;
         }
         const auto result = at.append(p, q, w);
         found.meet = result == plain_simplex::result::holds_origin;
@@ -531,6 +547,19 @@ ABUT_NOINLINE ABUT_HD constexpr plain_nearest search_in_doubles(const A& a, cons
     found.way = at.mean;
     found.along = at.along;
     return found;
+}
+
+/// Whether a way from a point of one to a point of the other tells that they are farther apart than that.
+template <class A, class B>
+ABUT_HD constexpr bool are_clearly_beyond(const A& a, const B& b, double far) {
+    using namespace contact_math;
+    const point along = plain_difference(b.any(), a.any());
+    const double length = root(one_double{plain_dot(along, along)}).high;
+    plain_nearest found;
+    found.size = greatest(a.size, b.size);
+    if (!is_searched(found.size) || !(length > shortest_usable_way)) return false;
+    found.least = plain_dot(along, plain_difference(b.farthest(negated(along)), a.farthest(along))) / length;
+    return found.are_surely_beyond(far);
 }
 
 template <class A, class B>

@@ -186,8 +186,12 @@ struct seen_round_solid {
     [[nodiscard]] ABUT_HD constexpr point farthest(const point& n) const {
         const double first = plain_dot(n, end[0]), last = plain_dot(n, end[1]);
         if (is_capsule) return plain_step(end[last > first ? 1 : 0], radius, n);
-        const point across = plain_step(n, -plain_dot(n, axis), axis);
-        const double length = root(one_double{plain_dot(across, across)}).high;
+        point across = plain_step(n, -plain_dot(n, axis), axis);
+        double length = root(one_double{plain_dot(across, across)}).high;
+        if (length < 0x1p-5) {  // of what rounding leaves there, no small part may lead along the axis
+            across = part_across(n, axis);
+            length = root(one_double{plain_dot(across, across)}).high;
+        }
         const double around = plain_product(radius, length);
         const int k = plain_sum(last, is_cone ? around : 0) > first ? 1 : 0;
         return has_rim(k) && length > 0 ? plain_step(end[k], radius / length, across) : end[k];
@@ -450,10 +454,10 @@ requires revolution_pair<S, U> ABUT_HD constexpr contact<scalar_type_of<S>> cont
     if constexpr (has_plain_pair<S, U>) {
         if (const auto first = first_contact_of(s, t, plain_pair<S, U>(s, t)); first.touch == verdict::yes) return first.found;
     }
-    contact<T> found{};
     if constexpr (searched_plainly<S, U>) {
-        if (find_contact_in_doubles(s, t, found)) return found;
+        if (const auto known = find_contact_in_doubles(s, t); known.is_known) return known.found;
     }
+    contact<T> found{};
     const common_scale scale(s, t);
     if constexpr (std::same_as<U, plane<T>>) {
         const vec3<T> where = shared_point_of(s, t);

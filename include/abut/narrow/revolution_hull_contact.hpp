@@ -155,8 +155,39 @@ ABUT_NOINLINE ABUT_HD constexpr contact_math::least_overlap way_out_of_hull(cons
     return pair.way();
 }
 
+/// Of n points whose hull touches something convex that reaches out of it: three, which may be equal, whose triangle touches.
+/// They are the ends of a range of points and one of that. hull(first, n) says whether the hull of so many of the points touches,
+/// and face(i, j, k) whether a triangle does.
+///
+/// Let `last` be the first number up to which the points' hull touches, and `first` the last one from which those up to `last` do.
+/// Some triangle of theirs touches, and without one of both ends nothing does: so both are corners of it. Two searches by halves
+/// find them, by 2 log2 n questions about hulls, and at most n about triangles find the third.
+template <class Hull, class Face>
+ABUT_HD constexpr points_of_face touching_points(std::size_t n, const Hull& hull, const Face& face) {
+    std::size_t last = n - 1, first = 0;
+    for (std::size_t below = 0; below < last;) {
+        const std::size_t middle = below + (last - below) / 2;
+        if (hull(0, middle + 1)) {
+            last = middle;
+        } else {
+            below = middle + 1;
+        }
+    }
+    for (std::size_t above = last; first < above;) {
+        const std::size_t middle = above - (above - first) / 2;
+        if (hull(middle, last + 1 - middle)) {
+            first = middle;
+        } else {
+            above = middle - 1;
+        }
+    }
+    std::size_t amid = first;
+    while (amid < last && !face(first, amid, last)) ++amid;
+    return {{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(amid), static_cast<std::uint32_t>(last)}};
+}
+
 /// Of a hull that a solid touches, but not its axis, a triangle of points that the solid touches: one of those at which a
-/// search ends; or where rounding leaves that open, the first.
+/// search ends; or where rounding leaves that open, of `touching_points`.
 template <solid_of_revolution S, scalar T>
 ABUT_NOINLINE ABUT_HD constexpr triangle<T> touching_triangle_of(const S& s, const hull<T>& h) {
     using namespace contact_math;
@@ -171,17 +202,15 @@ ABUT_NOINLINE ABUT_HD constexpr triangle<T> touching_triangle_of(const S& s, con
         const triangle<T> t = face_without(h, at, faces == 4 ? but : 3);
         if (touch_exactly(s, t)) return t;
     }
-    triangle<T> t{};
     const aabb<T> around = bounds(s);
-    for (std::size_t i = 0; i < h.count; ++i) {
-        for (std::size_t j = i; j < h.count; ++j) {
-            for (std::size_t k = j; k < h.count; ++k) {
-                t = {h[i], h[j], h[k]};
-                if (overlaps(around, bounds(t)) && touch_exactly(s, t)) return t;
-            }
-        }
-    }
-    return t;  // only where the two do not touch
+    const auto of = [&](std::size_t i, std::size_t j, std::size_t k) { return triangle<T>{h[i], h[j], h[k]}; };
+    const points_of_face found = touching_points(
+        h.count, [&](std::size_t first, std::size_t n) { return touch_exactly(s, h.part(first, n)); },
+        [&](std::size_t i, std::size_t j, std::size_t k) {
+            const triangle<T> t = of(i, j, k);
+            return overlaps(around, bounds(t)) && touch_exactly(s, t);
+        });
+    return of(found.id[0], found.id[1], found.id[2]);
 }
 
 /// A point of both, which touch. The solid has an axis with a length.
@@ -192,13 +221,18 @@ ABUT_HD constexpr vec3<T> shared_point_of(const S& s, const hull<T>& h) {
     return with_measured_hulls(h, axis, true, [](const auto& m) { return m.shared_point(); });
 }
 
+/// As of hulls, whether they touch or not.
+template <solid_of_revolution S, scalar T>
+requires std::same_as<T, scalar_type_of<S>> ABUT_HD constexpr contact_in_doubles<T> search_contact(const S& s, const hull<T>& h) {
+    return is_point(axis_of(s)) ? contact_in_doubles<T>{} : find_contact_in_doubles(s, h, true);
+}
+
 /// The normal points to the solid.
 template <solid_of_revolution S, scalar T>
 requires std::same_as<T, scalar_type_of<S>> ABUT_HD constexpr contact<T> contact_between(const S& s, const hull<T>& h) {
     if (is_point(axis_of(s))) return contact_with_ball(ball_around(s), h);
     const contact_math::common_scale scale(s, h);
-    contact<T> in_doubles{};
-    if (find_contact_in_doubles(s, h, in_doubles)) return in_doubles;
+    if (const auto known = find_contact_in_doubles(s, h); known.is_known) return known.found;
     contact<T> found = contact_math::assembled<T>(scale, {0, 0, 0}, way_out_of_hull(s, h, scale));
     found.point = shared_point_of(s, h);
     return found;

@@ -232,8 +232,7 @@ template <class S, class U>
 ABUT_NOINLINE ABUT_HD constexpr contact<scalar_type_of<S>> contact_of_round_solids(const S& s, const U& t) {
     using namespace contact_math;
     using T = scalar_type_of<S>;
-    contact<T> in_doubles{};
-    if (find_contact_in_doubles(s, t, in_doubles)) return in_doubles;
+    if (const auto known = find_contact_in_doubles(s, t); known.is_known) return known.found;
     const common_scale scale(s, t);
     const auto unit = common_unit(s, t);
     const point origin = scale(axis_of(s).a);

@@ -3,7 +3,8 @@
 
 // A filter before the searches of hull_hull.hpp and capsule_hull.hpp, for an oriented box and a few points, the ends of a
 // capsule's axis, a triangle's corners, or another box: what the boxes' own directions tell, and the triangle's plane, and
-// whether one of the points is inside. Not for what only two edges tell apart: that is left to the search.
+// whether one of the points is inside. Not for what only two edges tell apart: that is left to the search. And for a sphere, whose
+// centre in the box's frame tells all but what is close.
 //
 // Why it holds. All is seen from the box's centre c, in double, with u = 2^-53; size is the sum of the magnitudes of c, the
 // half lengths h, the farthest point and the radius. The box is nearly the parallelepiped of c, h and the columns a_k of its
@@ -14,6 +15,11 @@
 // Inside: with E = R^T R - 1 below 2^-8 in all, the place y of a point in the box's frame is within 2^-7 max |q| of q = R^T v,
 // and distances there are those of the world within 1/32. A point of the parallelepiped that is `off` below each of its faces
 // is in the hull of its corners wherever these are within off / 2. What underflows is below 2^-1000.
+//
+// A sphere's centre v has e = q - c, where c is q brought to within the half lengths, and `skew` is above all entries of E together.
+// Touching: the parallelepiped's point of the numbers c is within |e| + 2 skew |q| of v. Apart: along L = sum e_k a_k the centre is
+// farther than the parallelepiped by |e|^2 - skew |e| H at least, where H is the sum of h, and |L| is no more than (1 + skew) |e|. So
+// the distance is within 4 off + 4 skew size of |e|.
 
 #include <cstddef>
 
@@ -29,14 +35,13 @@ namespace abut::detail {
 template <scalar T>
 struct oriented_frame {
     vec3<double> center, columns[3];
-    double half[3], reach[3];
+    double half[3], reach[3], skew = 0;
     bool is_rotation;
 
     ABUT_HD constexpr explicit oriented_frame(const oriented_box<T>& box)
         : center(widened(box.center)), columns{widened(column(box.rotation, 0)), widened(column(box.rotation, 1)),
                                               widened(column(box.rotation, 2))},
           half{static_cast<double>(box.half.x), static_cast<double>(box.half.y), static_cast<double>(box.half.z)}, reach{} {
-        double skew = 0;
         for (int k = 0; k < 3; ++k) {
             const double own = dot(columns[k], columns[k]), other = absolute(dot(columns[k], columns[(k + 1) % 3]));
             skew += absolute(own - 1) + 2 * other;
@@ -141,6 +146,22 @@ ABUT_NOINLINE ABUT_HD constexpr verdict near_oriented(const oriented_box<T>& s, 
 template <scalar T>
 ABUT_NOINLINE ABUT_HD constexpr verdict near_oriented(const oriented_box<T>& s, const capsule<T>& t) {
     return near_oriented(oriented_frame<T>(s), {t.axis.a, t.axis.b}, t.radius);
+}
+template <scalar T>
+ABUT_NOINLINE ABUT_HD constexpr verdict near_oriented(const oriented_box<T>& s, const sphere<T>& t) {
+    const oriented_frame<T> box(s);
+    const vec3<double> center = widened(t.center), v = center - box.center;
+    const double r = static_cast<double>(t.radius), size = box.size() + (magnitudes(center) + r);
+    if (!(box.is_rotation && size < 0x1p240)) return verdict::unknown;
+    const double lost = 4 * (off_of_oriented<T> * size + 0x1p-1000) + 4 * box.skew * size;
+    double square = 0;
+    for (int k = 0; k < 3; ++k) {
+        const double beyond = greatest(absolute(dot(box.columns[k], v)) - box.half[k], 0.0);
+        square += beyond * beyond;
+    }
+    const double inner = r - lost, outer = r + lost;
+    if (inner > 0 && square + 0x1p-1000 <= inner * inner) return verdict::yes;
+    return square > outer * outer + 0x1p-1000 ? verdict::no : verdict::unknown;
 }
 template <scalar T>
 ABUT_NOINLINE ABUT_HD constexpr verdict near_oriented(const oriented_box<T>& s, const oriented_box<T>& t) {

@@ -47,6 +47,14 @@ struct hull {
     [[nodiscard]] ABUT_HD constexpr vec3<T> unplaced(std::size_t i) const {
         return stride == sizeof(vec3<T>) ? points[i] : far_point(i);
     }
+    /// The hull of `n` of the points, from number `first` on, under the same pose and without edges.
+    [[nodiscard]] ABUT_HD constexpr hull part(std::size_t first, std::size_t n) const {
+        hull some = *this;
+        some.points = stride == sizeof(vec3<T>) ? points + first : &far_point(first);
+        some.count = n;
+        some.edges = nullptr;
+        return some;
+    }
 
 private:
     [[nodiscard]] ABUT_HD const vec3<T>& far_point(std::size_t i) const {
