@@ -169,7 +169,7 @@ RESULTS_OF = {
     "extremes": ["cpu/extremes", "cuda/extremes"],
     "scaling": ["cpu/cores", "cpu/cores_busy", "cpu/distributed"],
     "devices": ["cuda/devices", "cuda/devices_large", "cuda/devices_divided"],
-    "on-a-device": ["cuda/solids", "cuda/sweep", "cuda/turning", "cuda/arm"],
+    "on-a-device": ["cuda/solids", "cuda/sweep", "cuda/turning", "cuda/arm", "cuda/cloth_step"],
     "footprint": ["cpu/footprint", "cpu/footprint_build", "cuda/footprint"],
 }
 

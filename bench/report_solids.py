@@ -40,7 +40,7 @@ def solids(results):
 @in_table("device-queries")
 def device_queries(results):
     """What bench/solids.cu, sweep.cu, turning.cu and arm.cu measure, each of its own run."""
-    solids, sweep, turning, arm = (results[f"cuda/{name}"] for name in ("solids", "sweep", "turning", "arm"))
+    solids, sweep, turning, arm, cloth = (results[f"cuda/{name}"] for name in ("solids", "sweep", "turning", "arm", "cloth_step"))
     rows = []
     for key, title in (("pairs", "`pairs`"), ("crossings", "`crossings`"), ("any", "`any`"), ("overlaps", "`overlaps`"), ("relation", "`relation`")):
         rows.append([title, "two scans of 345,944 faces that cross", "1", shown(solids.get(f"{key}/cuda")),
@@ -61,5 +61,11 @@ def device_queries(results):
         key = f"states/{where}/cuda"
         rows.append(["`any_each`", f"states of an arm of eight links in {title}", whole(arm.get(key, "items")), shown(arm.get(key)),
                      whole(arm.get(key, "wrong"))])
+    of_cloth = f"a recorded step of a cloth of {whole(cloth.get('impacts', 'faces'))} triangles, {whole(cloth.get('impacts', 'impacts'))} impacts"
+    for key, title in (("frame", "`refit` and `self_impacts`"), ("graph/frame", "the same as one graph"), ("safe_step", "`safe_self_step`"),
+                       ("graph/safe_step", "the same as one graph"), ("graph/all", "all of these as one graph")):
+        rows.append([title, of_cloth, "1", shown(cloth.get(key)), whole(1 - cloth.get("graph/same", "same")) if key == "graph/all" else ""])
+    rows.append(["`self_impacts`", f"eleven such cloths, {whole(cloth.get('million/impacts', 'faces'))} triangles", "1",
+                 shown(cloth.get("million/impacts")), ""])
     head = ["query", "scene", "questions in one call", "ms", "answers that differ from the host's"]
     return table(head, rows, 2) + made_on(solids)

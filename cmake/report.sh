@@ -107,6 +107,7 @@ cuda sweep bench_sweep_cuda {} @D@/meshes/armadillo_345944.ply
 cuda solids bench_solids_cuda {} @D@/meshes/armadillo_345944.ply
 cuda turning bench_turning_cuda @D@ {}
 cuda arm bench_arm_cuda {}
+cuda cloth_step bench_cloth_step_cuda @D@/ccd/cloth-ball {}
 cuda bodies bench_bodies_cuda {}
 cuda validate bench_validate_cuda {}
 cuda meshes bench_meshes_cuda {} @D@/meshes/armadillo_345944.ply @D@/meshes/armadillo_2766.ply
