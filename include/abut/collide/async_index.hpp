@@ -215,10 +215,8 @@ struct async_refit {
 
 /// `refit` in the stream: the tree is brought to what its view holds when the stream gets there. Results of queries that come
 /// later are right however far shapes have moved. A graph may capture it. Numbers in the view have to be finite. Throws error
-/// for an index of another device; std::bad_alloc, cuda_error. Does not wait.
-///
-///     abut::async_index moving(on, abut::make_bvh(on, view));
-///     abut::refit(abut::async(on, moving));
+/// for an index of another device; std::bad_alloc, cuda_error. Does not wait. `refit(async(on, tree))`, where `tree` is
+/// `async_index tree(on, make_bvh(on, view))`; docs/guide/streams.md has a program.
 template <execution_policy Policy, class View, memory_space Space>
 void refit(const async<Policy, async_index<bvh<View, Space>>>& stream) {
     detail::async_refit::of(stream);
@@ -226,10 +224,8 @@ void refit(const async<Policy, async_index<bvh<View, Space>>>& stream) {
 
 /// `refit` in the stream: the index is brought to the step that two views of as many points tell, the vertices where the step
 /// begins and where it ends, and keeps a copy of both. They lie in the policy's memory and have to be finite. Throws error for
-/// another number of vertices, and as above. Does not wait.
-///
-///     abut::async_index cloth(on, abut::make_impact_index(on, step));
-///     abut::refit(abut::async(on, cloth), abut::moving(from, to));  // points_view<float, abut::device_space>
+/// another number of vertices, and as above. Does not wait. `refit(async(on, cloth), moving(from, to))` of two views, where
+/// `cloth` is `async_index cloth(on, make_impact_index(on, step))`.
 template <execution_policy Policy, scalar T, memory_space Space>
 void refit(const async<Policy, async_index<impact_index<T, Space>>>& stream,
            const std::type_identity_t<moving_view<points_view<T, Space>>>& step) {
