@@ -18,54 +18,25 @@
 
 #include "cuda_table.hpp"
 #include "peers/arm.hpp"
+#include "peers/draws.hpp"
 
 namespace {
-
-/// SplitMix64, as bench_peers draws. Not its numbers, so that this needs none of its program.
-class draws {
-public:
-    double operator()(double low, double high) {
-        std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-        return low + (high - low) * static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
-    }
-    abut::rigid<double> turned(const abut::vec3<double>& at) {
-        const double angle = (*this)(-3, 3), c = std::cos(angle), s = std::sin(angle);
-        return {.rotation = {c, -s, 0, s, c, 0, 0, 0, 1}, .translation = at};
-    }
-
-private:
-    std::uint64_t state_ = 20190819;
-};
-
-/// Row i is of link first + 2 * (i % per_state).
-struct allowed_in_room {
-    std::uint32_t first, per_state;
-    bool in_room;
-    ABUT_HD bool operator()(std::uint32_t row, std::uint32_t id) const {
-        return !(in_room && first + 2 * (row % per_state) == 0 && id == 0);
-    }
-};
 
 template <class HostIndex, class Index>
 void add_states(const abut::cuda& on, bench::table& out, const std::string& name, const peers::arm_scene& arm, const HostIndex& host_index,
                 const Index& index) {
-    using peers::kind;
     std::vector<abut::capsule<double>> capsules;
     std::vector<abut::oriented_box<double>> boxes;
     for (const auto& state : arm.poses) {
         for (std::size_t k = 0; k < state.size(); k += 2) {
-            capsules.push_back(place(state[k], peers::made<kind::capsule>(arm.links[k])));
-            abut::oriented_box<double> box{state[k + 1].translation, arm.links[k + 1].halves};
-            for (int j = 0; j < 9; ++j) box.rotation[j] = state[k + 1].rotation[j];
-            boxes.push_back(box);
+            capsules.push_back(peers::capsule_of(arm.links[k], state[k]));
+            boxes.push_back(peers::box_of(arm.links[k + 1], state[k + 1]));
         }
     }
-    const auto per_state = static_cast<std::uint32_t>(arm.links.size() / 2);
+    const auto per_state = arm.links.size() / 2;
     const bool in_room = arm.faces.empty();
-    const auto options = [&](std::uint32_t first) {
-        return abut::each_options<allowed_in_room>{{first, per_state, in_room}, per_state};
+    const auto options = [&](std::size_t first) {
+        return abut::each_options<peers::allowed_links>{{first, per_state, in_room}, per_state};
     };
     const abut::shapes<abut::capsule<double>> host_capsules(capsules);
     const abut::shapes<abut::oriented_box<double>> host_boxes(boxes);
@@ -94,7 +65,7 @@ int main(int argc, char** argv) {
     return bench::run("bench_arm_cuda", argc, argv, [&](const abut::cuda& on, bench::table& out) {
         const abut::serial host;
         const abut::bvh_options how{.builder = abut::bvh_builder::ploc};
-        draws d;
+        peers::draws d;
         const auto in_room = peers::make_arm(d, 10000, false), at_mesh = peers::make_arm(d, 10000, true);
         add_states(on, out, "room", in_room, make_bvh(host, abut::oriented_boxes<double>(in_room.room), how),
                    make_bvh(on, abut::oriented_boxes<double, abut::device_space>(on, in_room.room), how));

@@ -27,7 +27,7 @@ struct arm_scene {
     std::vector<abut::face> faces;
 
     /// The first link stands on the floor, which is the first box.
-    [[nodiscard]] static bool is_allowed(std::size_t link, std::size_t in_room) { return link == 0 && in_room == 0; }
+    [[nodiscard]] ABUT_HD static bool is_allowed(std::size_t link, std::size_t in_room) { return link == 0 && in_room == 0; }
 };
 
 /// A library's way to tell which states collide; made once of a scene.
@@ -98,6 +98,25 @@ arm_scene make_arm(Draws& d, std::size_t states, bool mesh) {
     return s;
 }
 
+/// Of row i, which is of link first + 2 * (i % per_state), and what lies there.
+struct allowed_links {
+    std::size_t first, per_state;
+    bool in_room;
+    ABUT_HD bool operator()(std::uint32_t row, std::uint32_t id) const {
+        return !(in_room && arm_scene::is_allowed(first + 2 * (row % per_state), id));
+    }
+};
+
+/// A link where it is.
+inline abut::capsule<double> capsule_of(const shape& link, const abut::rigid<double>& pose) {
+    return place(pose, made<kind::capsule>(link));
+}
+inline abut::oriented_box<double> box_of(const shape& link, const abut::rigid<double>& pose) {
+    abut::oriented_box<double> box{pose.translation, link.halves};
+    for (int k = 0; k < 9; ++k) box.rotation[k] = pose.rotation[k];
+    return box;
+}
+
 /// Links of one kind, of the states that are free so far. What meets the index collides.
 template <abut::arithmetic A, class Index, class Rows, class Make>
 void check_links(const Index& index, const arm_scene& s, std::size_t first, const Make& make, collisions& out) {
@@ -111,15 +130,8 @@ void check_links(const Index& index, const arm_scene& s, std::size_t first, cons
         for (std::size_t k = first; k < s.links.size(); k += 2) rows.push_back(make(s.links[k], s.poses[i][k]));
     }
     const std::size_t per_state = s.links.size() / 2;
-    struct allowed {
-        std::size_t first, per_state;
-        bool in_room;
-        bool operator()(std::uint32_t row, std::uint32_t id) const {
-            return !(in_room && arm_scene::is_allowed(first + 2 * (row % per_state), id));
-        }
-    };
     const auto met = abut::any_each<A>(abut::serial{}, index, abut::shapes_view<Rows>(rows.data(), rows.size()),
-                                       abut::each_options<allowed>{{first, per_state, !s.room.empty()}, per_state});
+                                       abut::each_options<allowed_links>{{first, per_state, !s.room.empty()}, per_state});
     for (std::size_t i = 0; i < met.size(); ++i) out[open[i]] = met[i];
 }
 
@@ -128,16 +140,8 @@ std::function<void(collisions&)> abut_arm(const arm_scene& s) {
     const auto checker = [&s](const auto& index) {
         return [&s, index](collisions& out) {
             out.assign(s.poses.size(), 0);
-            check_links<A, std::remove_cvref_t<decltype(index)>, abut::capsule<double>>(
-                index, s, 0, [](const shape& link, const abut::rigid<double>& pose) { return place(pose, made<kind::capsule>(link)); }, out);
-            check_links<A, std::remove_cvref_t<decltype(index)>, abut::oriented_box<double>>(
-                index, s, 1,
-                [](const shape& link, const abut::rigid<double>& pose) {
-                    abut::oriented_box<double> box{pose.translation, link.halves};
-                    for (int k = 0; k < 9; ++k) box.rotation[k] = pose.rotation[k];
-                    return box;
-                },
-                out);
+            check_links<A, std::remove_cvref_t<decltype(index)>, abut::capsule<double>>(index, s, 0, capsule_of, out);
+            check_links<A, std::remove_cvref_t<decltype(index)>, abut::oriented_box<double>>(index, s, 1, box_of, out);
         };
     };
     const abut::serial on;

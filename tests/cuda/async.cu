@@ -7,6 +7,7 @@
 
 #include "collide/contact_cases.hpp"
 #include "collide/query_cases.hpp"
+#include "cuda/own_stream.hpp"
 #include "support/catch.hpp"
 #include "support/surfaces.hpp"
 #include "support/poses.hpp"
@@ -14,18 +15,6 @@
 namespace abut::test {
 
 namespace {
-
-/// A stream that waits for what is in it before it goes.
-struct own_stream {
-    cudaStream_t stream = nullptr;
-    own_stream() { REQUIRE(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking) == cudaSuccess); }
-    own_stream(const own_stream&) = delete;
-    own_stream& operator=(const own_stream&) = delete;
-    ~own_stream() {
-        cudaStreamSynchronize(stream);
-        cudaStreamDestroy(stream);
-    }
-};
 
 /// Triangles and balls, of which some hundred pairs touch.
 struct triangles_and_balls {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "cuda/own_stream.hpp"
 #include "support/catch.hpp"
 #include "support/draws.hpp"
 #include "support/surfaces.hpp"
@@ -16,17 +17,6 @@ namespace {
 
 using vertex_list = std::vector<vec3<float>>;
 using impact_result = std::vector<impact<float>>;
-
-struct motion_stream {
-    cudaStream_t stream = nullptr;
-    motion_stream() { REQUIRE(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking) == cudaSuccess); }
-    motion_stream(const motion_stream&) = delete;
-    motion_stream& operator=(const motion_stream&) = delete;
-    ~motion_stream() {
-        cudaStreamSynchronize(stream);
-        cudaStreamDestroy(stream);
-    }
-};
 
 /// Two bumpy sheets, of which the upper one falls through the lower one.
 struct two_sheets {
@@ -155,7 +145,7 @@ impact_result to_list(const T& found) {
 }  // namespace
 
 TEST_CASE("async motion: as calls that wait") {
-    const motion_stream mine;
+    const own_stream mine;
     const cuda on{.stream = mine.stream};
     for (const float bumps : {1.0f, 0.25f}) {
         draws d(20261129, 1, 0);
@@ -271,7 +261,7 @@ __global__ void count_step(unsigned* count) { ++*count; }
 }  // namespace
 
 TEST_CASE("async motion: a step is one graph") {
-    const motion_stream mine;
+    const own_stream mine;
     const cuda on{.stream = mine.stream};
     draws d(20261129, 4, 0);
     const two_sheets sheets(d, 20, 1);
@@ -309,7 +299,7 @@ TEST_CASE("async motion: a step is one graph") {
 }
 
 TEST_CASE("async motion: a tree is refitted in a graph") {
-    const motion_stream mine;
+    const own_stream mine;
     const cuda on{.stream = mine.stream};
     draws d(20261129, 5, 0);
     const two_sheets sheets(d, 20, 1);

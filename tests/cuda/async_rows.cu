@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "cuda/own_stream.hpp"
 #include "support/catch.hpp"
 #include "support/draws.hpp"
 #include "support/surfaces.hpp"
@@ -12,17 +13,6 @@
 namespace abut::test {
 
 namespace {
-
-struct rows_stream {
-    cudaStream_t stream = nullptr;
-    rows_stream() { REQUIRE(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking) == cudaSuccess); }
-    rows_stream(const rows_stream&) = delete;
-    rows_stream& operator=(const rows_stream&) = delete;
-    ~rows_stream() {
-        cudaStreamSynchronize(stream);
-        cudaStreamDestroy(stream);
-    }
-};
 
 __global__ void push_vertices(vec3<float>* vertices, std::size_t n, vec3<float> way) {
     const std::size_t i = std::size_t{blockIdx.x} * blockDim.x + threadIdx.x;
@@ -51,7 +41,7 @@ auto on_host(const T& found) {
 }  // namespace
 
 TEST_CASE("async rows: as calls that wait, and again in a graph about what has moved") {
-    const rows_stream mine;
+    const own_stream mine;
     const cuda on{.stream = mine.stream};
     draws d(20261129, 7, 0);
     const auto ball = ball_surface<float>(3, 1.0);

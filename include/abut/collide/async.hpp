@@ -265,10 +265,16 @@ inline constexpr bool is_one_loop = false;
 template <class Filter, traversal Traversal, schedule Schedule>
 inline constexpr bool is_one_loop<query_options<Filter, Traversal, Schedule>> =
     Traversal != traversal::breadth_first && Traversal != traversal::from_front && Schedule != schedule::static_partition;
-template <class Policy, class Question, class Form, class Options>
-consteval bool can_ask_async() {
+/// Whether a policy has a stream.
+template <class Policy>
+consteval bool has_stream() {
     constexpr bool on_device = !host_policy<Policy>;
     static_assert(on_device, "abut: calls that do not wait are for cuda; a host's policy has nothing to wait for");
+    return on_device;
+}
+template <class Policy, class Question, class Form, class Options>
+consteval bool can_ask_async() {
+    constexpr bool on_device = has_stream<Policy>();
     constexpr bool has_form = has_async<Form> && Question::kind != answer_kind::visits;
     static_assert(has_form, "abut: lists, bodies and visitors need the host between their kernels: they are for calls that wait");
     static_assert(!has_form || is_one_loop<Options>,

@@ -330,9 +330,7 @@ private:
 /// Whether an impact query in a stream takes both.
 template <bool Within, class Policy, class X, class Y>
 consteval bool can_collide_async() {
-    constexpr bool on_device = !host_policy<Policy>;
-    static_assert(on_device, "abut: calls that do not wait are for cuda; a host's policy has nothing to wait for");
-    if constexpr (!on_device) {
+    if constexpr (!has_stream<Policy>()) {
         return false;
     } else if constexpr (!is_impact_index<X> || !is_impact_index<Y>) {
         constexpr bool are = is_impact_index<X> && is_impact_index<Y>;

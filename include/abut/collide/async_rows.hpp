@@ -27,9 +27,7 @@ struct write_rows_state {
 /// Whether a question of rows in a stream takes both.
 template <class Policy, class Question, class X, class Rows>
 consteval bool can_ask_rows_async() {
-    constexpr bool on_device = !host_policy<Policy>;
-    static_assert(on_device, "abut: calls that do not wait are for cuda; a host's policy has nothing to wait for");
-    if constexpr (!on_device) {
+    if constexpr (!has_stream<Policy>()) {
         return false;
     } else if constexpr (is_bodies<X>) {
         static_assert(!is_bodies<X>, "abut: bodies are for calls that wait");

@@ -35,6 +35,7 @@ struct bvh_walk {
     /// Calls visitor(shape id) -> visit for every leaf whose box the query reaches, until it says stop. Rests where rests()
     /// says so, which it is asked before each node; then it returns true, and another call with the same query goes on from
     /// `at`, a cursor of this walk or one with more room. At its end it returns false.
+    ABUT_CALLS_ANY
     template <class Reach, class Cursor, class Rests, class Visitor>
     ABUT_HD bool for_each(Reach& reach, Cursor& at, const Rests& rests, Visitor&& visitor) const {
         if (at.waiting < 0) {
@@ -55,6 +56,7 @@ struct bvh_walk {
     }
 
 private:
+    ABUT_CALLS_ANY
     template <class Reach, class Cursor, class Rests, class Visitor>
     ABUT_HD bool for_each_below_two(Reach& reach, Cursor& at, const Rests& rests, Visitor& visitor) const {
         // One entry at most for each level above the current node.
@@ -96,6 +98,7 @@ private:
         }
     }
 
+    ABUT_CALLS_ANY
     template <class Reach, class Cursor, class Rests, class Visitor>
     ABUT_HD bool for_each_below_wide(Reach& reach, Cursor& at, const Rests& rests, Visitor& visitor) const {
         std::uint32_t* const pending = at.pending;
