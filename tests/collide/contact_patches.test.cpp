@@ -324,11 +324,11 @@ std::vector<region_of_squares> regions_of_squares(const cells& a, const cells& b
     return regions;
 }
 
-/// An area vector of unit squares under a map of determinant 1 or -1.
+/// An area vector of unit squares under the map of a frame.
 std::array<double, 3> mapped(const double (&sum)[3], const frame_of_grid& f) {
     const auto& m = f.map;
     std::array<double, 3> out{};
-    double determinant = 0;
+    const int way = f.determinant() < 0 ? -1 : 1;
     for (int c = 0; c < 3; ++c) {
         const int d = (c + 1) % 3, e = (c + 2) % 3;
         double across[3];
@@ -337,9 +337,8 @@ std::array<double, 3> mapped(const double (&sum)[3], const frame_of_grid& f) {
             across[r] = m[s][d] * m[t][e] - m[t][d] * m[s][e];
         }
         for (int r = 0; r < 3; ++r) out[static_cast<std::size_t>(r)] += sum[c] * across[r];
-        if (c == 0) determinant = m[0][0] * across[0] + m[1][0] * across[1] + m[2][0] * across[2];
     }
-    for (double& x : out) x *= determinant * f.unit * f.unit;
+    for (double& x : out) x *= way * f.unit * f.unit;
     return out;
 }
 
@@ -387,7 +386,7 @@ TEMPLATE_TEST_CASE("patches of cells are those of their squares", "[patches]", f
                 if (is_used[i] != 0) continue;
                 const auto sum = mapped(expected[i].sum, f);
                 bool fits = true;
-                const double reach = 1e-4 * f.unit * f.unit * 200;
+                const double reach = 0.02 * f.side() * f.side();
                 double most = 0;
                 for (std::size_t c = 0; c < 3; ++c) {
                     fits &= std::abs(sum[c] - area_along(p, c)) <= reach;
@@ -397,7 +396,7 @@ TEMPLATE_TEST_CASE("patches of cells are those of their squares", "[patches]", f
                 double lowest = 1e300, highest = -1e300;
                 for (const grid_place& q : expected[i].corners_a) lowest = std::min(lowest, height(p, f.operator()<double>(q)));
                 for (const grid_place& q : expected[i].corners_b) highest = std::max(highest, height(p, f.operator()<double>(q)));
-                fits &= std::abs(std::max(0.0, highest - lowest) - static_cast<double>(p.depth)) <= 1e-3 * f.unit;
+                fits &= std::abs(std::max(0.0, highest - lowest) - static_cast<double>(p.depth)) <= 1e-3 * f.side();
                 if (!fits) continue;
                 is_used[i] = 1;
                 is_one = true;
@@ -431,7 +430,7 @@ TEMPLATE_TEST_CASE("areas of touching cells are those of their squares", "[patch
             ++touching;
         }
         CAPTURE(k);
-        for (std::size_t c = 0; c < 3; ++c) CHECK(std::abs(expected[c] - found[c]) <= 0.02 * f.unit * f.unit);
+        for (std::size_t c = 0; c < 3; ++c) CHECK(std::abs(expected[c] - found[c]) <= 0.02 * f.side() * f.side());
     }
     CHECK(touching > 500);
 }

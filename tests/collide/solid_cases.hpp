@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -22,10 +23,18 @@ namespace abut::test {
 
 using grid_place = std::array<int, 3>;
 
-/// What is made of the integer coordinates of a solid: a linear map of determinant 1 or -1, a unit, and an offset.
+/// What is made of the integer coordinates of a solid: a linear map of integers, and a unit.
 struct frame_of_grid {
     int map[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     double unit = 1;
+
+    [[nodiscard]] int determinant() const {
+        const auto& m = map;
+        return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+               m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+    }
+    /// The side of a cube as large as the image of a unit cell.
+    [[nodiscard]] double side() const { return std::cbrt(std::abs(determinant())) * unit; }
 
     template <scalar T>
     [[nodiscard]] vec3<T> operator()(const grid_place& p) const {
@@ -73,9 +82,7 @@ mesh<T> surface_of(const cells& of, const frame_of_grid& frame, draws& d, bool i
         if (fresh) vertices.push_back(frame.operator()<T>(p));
         return at->second;
     };
-    const auto& m = frame.map;
-    const int determinant = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-                            m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+    const int determinant = frame.determinant();
     for (const grid_place& c : of.in) {
         for (int axis = 0; axis < 3; ++axis) {
             for (const int up : {0, 1}) {
@@ -514,7 +521,13 @@ void check_scenes_of_solids(const Policy& on, std::uint64_t scenes) {
         std::vector<cells> all;
         std::vector<posed_object<tree>> scene;
         for (int i = 0; i < 8; ++i) {
-            cells c = draw_cells(d, 1 + d.below(4), 1 + d.below(2), 4);
+            const int size = 1 + d.below(4), side = 1 + d.below(2);  // in two steps: the order of arguments is the compiler's
+            cells c = draw_cells(d, size, side, 4);
+            if (i == 6) {  // a unit cell in the last one
+                c = {};
+                c.in.insert({0, 0, 0});
+                for (int& x : c.offset) x = d.below(5) - 1;
+            }
             if (i == 7) {
                 c = {};
                 for (int p = 0; p < 125; ++p) c.in.insert({p % 5, p / 5 % 5, p / 25});
