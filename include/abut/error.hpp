@@ -51,6 +51,15 @@ public:
 
 namespace detail {
 
+/// What an error names, by a function that is called only where there is one: lists have a name for each entry.
+template <class Make>
+struct name_when_needed {
+    const Make& make;
+    operator std::string() const { return make(); }  // NOLINT
+};
+template <class Make>
+name_when_needed(const Make&) -> name_when_needed<Make>;
+
 inline std::string shortest(double value) {
     char text[32];
     std::snprintf(text, sizeof text, "%.9g", value);

@@ -42,7 +42,7 @@ QUERIES = [*OF_TWO, *OF_ROWS, *OF_ONE, *IN_MOTION]
 MORE = {"any_within": ", 1.0", "count_within": ", 1.0", "within": ", 1.0", "bodies_within": ", 1.0", "self_within": ", 1.0",
         "any_within_each": ", 1.0", "for_each_pair": ", {}::visitor", "hausdorff": ", {{.tolerance = 0.01}}",
         "penetration": ", {{.tolerance = 0.01}}"}
-WAYS = {"any_each": "ways", "touching_bodies": "way", "first_meetings": "way"}  # what is in motion, where it is no mesh
+WAYS = {"any_each": "ways", "touching_bodies": "way", "first_meetings": "ways"}  # what is in motion, where it is no mesh
 OUTCOMES = {"any": "value<bool>", "any_within": "value<bool>", "count": "value<std::uint64_t>", "count_within": "value<std::uint64_t>",
             "count_self_pairs": "value<std::uint64_t>", "contacts": "result<abut::contact<float>>",
             "crossings": "result<abut::crossing<float>>", "self_crossings": "result<abut::crossing<float>>"}

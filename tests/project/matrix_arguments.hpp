@@ -84,8 +84,8 @@ struct devices {
     static const replicated<abut::bodies<part>>& scene;
     static const abut::mixed_bodies<part, small>& mixed;
     static const decltype(abut::make_impact_index(on, some<abut::moving_set<abut::mesh<float>>>()))& step;
-    static const abut::bodies_motion<part>& way;
-    static const std::vector<abut::moving_pair<part, part>>& ways;
+    static const replicated<abut::bodies_motion<part>>& way;
+    static const std::vector<abut::moving_pair<replicated<part>, replicated<part>>>& ways;
     static const replicated<abut::points<float, device_space>>& points;
     static const replicated<abut::rays<float, device_space>>& lines;
     static const replicated<abut::spheres<float, device_space>>& rows;

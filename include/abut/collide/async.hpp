@@ -374,6 +374,10 @@ namespace detail {
 template <class Policy, class Outcome>
 inline constexpr bool is_async<async<Policy, Outcome>> = true;
 
+template <class Policy, class Outcome, class Each, class Form, class Options>
+void ask_entries(const async<Policy, Outcome>&, const Each&, const Form&, const Options&, const char*) {
+    static_assert(sizeof(Form) == 0, "abut: lists need the host between their kernels: they are for calls that wait");
+}
 template <class Policy, class Outcome, class Question, class Form, class Options>
 void ask_pairs(const async<Policy, Outcome>& stream, const Question& question, const Form& form, const Options& options,
                const char* function) {

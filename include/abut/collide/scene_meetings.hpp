@@ -30,7 +30,8 @@ namespace abut {
 /// `moving(posed(x, from), posed(x, to))` does. Shares what both scenes share.
 template <class Index>
 struct bodies_motion {
-    using index_type = Index;  ///< what bodies are of
+    using index_type = Index;                          ///< what bodies are of
+    using scalar_type = typename Index::scalar_type;  ///< float or double
 
     bodies<Index> at_t0;  ///< under the poses at t = 0
     bodies<Index> at_t1;  ///< under those at t = 1
@@ -125,7 +126,8 @@ struct scene_ways {
         for (std::size_t i = 0; i < n; ++i) {
             const Index& index = from.objects->indices[object_of[i]];
             of.emplace_back(index, poses_t0[i], poses_t1[i]);
-            const rigid_motion way = make_rigid_motion(poses_t0[i], poses_t1[i], of.back().about, function + ": body " + std::to_string(i));
+            const auto name = [&] { return function + ": body " + std::to_string(i); };
+            const rigid_motion way = make_rigid_motion(poses_t0[i], poses_t1[i], of.back().about, name_when_needed{name});
             if (index.size() == 0) continue;
             boxes.push_back(box_on_way(way, index.bounds(), far));
             with_shapes.push_back(static_cast<std::uint32_t>(i));
@@ -182,6 +184,16 @@ void ask_bodies_on_way(const Policy& on, const scene_ways<IndexA>& a, const scen
     if (!list.empty()) ask();
 }
 
+/// Which of the pairs of boxes that meet are asked about: one of several devices has each so-manieth.
+struct share_of_bodies {
+    std::size_t part = 0, parts = 1;
+    [[nodiscard]] std::vector<index_pair> of(const std::vector<index_pair>& all) const {
+        if (parts == 1) return all;
+        std::vector<index_pair> mine;
+        for (std::size_t i = part; i < all.size(); i += parts) mine.push_back(all[i]);
+        return mine;
+    }
+};
 
 /// What is found, in the policy's memory.
 template <class Found, class Policy>
@@ -199,46 +211,62 @@ struct first_of_bodies {
     using found = body_meeting;
     static bool is_told(const meeting& first) { return first.a != no_id; }
     static body_meeting tell(const index_pair& bodies, const meeting& first) { return {bodies.a, bodies.b, first}; }
+    static index_pair bodies(const body_meeting& of) { return {of.body_a, of.body_b}; }
 };
 struct whether_bodies_meet {
     using answer = std::uint8_t;
     using found = index_pair;
     static bool is_told(std::uint8_t meet) { return meet != 0; }
     static index_pair tell(const index_pair& bodies, std::uint8_t) { return bodies; }
+    static index_pair bodies(const index_pair& of) { return of; }
 };
 ///@}
 
-/// Within one scene, or between two.
+/// What is found within one scene, or between two, in host memory; or what of it is in a share.
 ///@{
 template <class Question, class Policy, class Scene, class Filter>
-auto ask_scenes_on_way(const Policy& on, const Scene& scene, const scene_meeting_options<Filter>& options, const std::string& function) {
+auto bodies_that_meet(const Policy& on, const alone<Scene>& all, const scene_meeting_options<Filter>& options, const std::string& function,
+                      const share_of_bodies& share = {}) {
     using index = typename Scene::index_type;
     std::vector<typename Question::found> found;
     if constexpr (can_turn<Policy, index, index>()) {
         check(meeting_options{options.tolerance}, function);
-        const scene_ways<index> ways(on, as_motion(scene), options.tolerance, function);
-        const boxes<typename index::scalar_type> all(ways.boxes);
-        ask_bodies_on_way<Question>(on, ways, ways, to_host(self_pairs(on, make_bvh(on, copy_to(on, all)))), options, function, found);
+        const scene_ways<index> ways(on, as_motion(all.x), options.tolerance, function);
+        const boxes<typename index::scalar_type> boxes_of_all(ways.boxes);
+        const auto near = to_host(self_pairs(on, make_bvh(on, copy_to(on, boxes_of_all))));
+        ask_bodies_on_way<Question>(on, ways, ways, share.of(near), options, function, found);
     }
-    return result_of_host(on, found);
+    return found;
 }
 template <class Question, class Policy, class SceneA, class SceneB, class Filter>
-auto ask_scenes_on_way(const Policy& on, const SceneA& a, const SceneB& b, const scene_meeting_options<Filter>& options,
-                       const std::string& function) {
+auto bodies_that_meet(const Policy& on, const two<SceneA, SceneB>& both, const scene_meeting_options<Filter>& options,
+                      const std::string& function, const share_of_bodies& share = {}) {
     using index_a = typename SceneA::index_type;
     using index_b = typename SceneB::index_type;
     std::vector<typename Question::found> found;
     if constexpr (can_turn<Policy, index_a, index_b>()) {
         check(meeting_options{options.tolerance}, function);
-        const scene_ways<index_a> of_a(on, as_motion(a), options.tolerance, function);
-        const scene_ways<index_b> of_b(on, as_motion(b), options.tolerance, function);
-        const boxes<typename index_a::scalar_type> all_a(of_a.boxes), all_b(of_b.boxes);
-        ask_bodies_on_way<Question>(on, of_a, of_b, to_host(pairs(on, make_bvh(on, copy_to(on, all_a)), make_bvh(on, copy_to(on, all_b)))),
-                                    options, function, found);
+        const scene_ways<index_a> of_a(on, as_motion(both.a), options.tolerance, function);
+        const scene_ways<index_b> of_b(on, as_motion(both.b), options.tolerance, function);
+        const boxes<typename index_a::scalar_type> boxes_a(of_a.boxes), boxes_b(of_b.boxes);
+        const auto near = to_host(pairs(on, make_bvh(on, copy_to(on, boxes_a)), make_bvh(on, copy_to(on, boxes_b))));
+        ask_bodies_on_way<Question>(on, of_a, of_b, share.of(near), options, function, found);
     }
-    return result_of_host(on, found);
+    return found;
 }
 ///@}
+
+/// The same as a `result`.
+template <execution_policy Policy, class Question, class Scenes, class Filter>
+auto ask_scenes_on_way(const Policy& on, const Question&, const Scenes& scenes, const scene_meeting_options<Filter>& options, const char* function) {
+    return result_of_host(on, bodies_that_meet<Question>(on, scenes, options, function));
+}
+/// Several devices are in devices/bodies.hpp.
+template <class On, class Question, class Scenes, class Filter>
+    requires(is_ranks<On> || is_async<On>)
+void ask_scenes_on_way(const On&, const Question&, const Scenes&, const scene_meeting_options<Filter>&, const char*) {
+    static_assert(execution_policy<On>, "abut: scenes in motion lie on one machine, and need the host: ranks and async take none");
+}
 
 }  // namespace detail
 
@@ -267,28 +295,30 @@ auto ask_scenes_on_way(const Policy& on, const SceneA& a, const SceneB& b, const
 /// @par Example
 ///     const auto next = abut::refit(on, scene, poses);
 ///     for (const auto& m : abut::to_host(abut::first_meetings(on, abut::moving(scene, next), {.tolerance = 1e-3}))) use(m.first.time);
-template <execution_policy Policy, class Index, class Filter = keep_all>
-[[nodiscard]] auto first_meetings(const Policy& on, const bodies_motion<Index>& scene, const scene_meeting_options<Filter>& options) {
-    return detail::ask_scenes_on_way<detail::first_of_bodies>(on, scene, options, "abut::first_meetings");
+template <executor On, class Scene, class Filter = keep_all>
+    requires detail::is_bodies_motion<Scene>
+[[nodiscard]] auto first_meetings(const On& on, const Scene& scene, const scene_meeting_options<Filter>& options) {
+    return ask_scenes_on_way(on, detail::first_of_bodies{}, detail::alone<Scene>{scene}, options, "abut::first_meetings");
 }
 /// The same of each body of `a` and each of `b`, of which one scene may be at rest. body_a is the number in a, body_b in b.
-template <execution_policy Policy, detail::scene_on_way SceneA, detail::scene_on_way SceneB, class Filter = keep_all>
+template <executor On, detail::scene_on_way SceneA, detail::scene_on_way SceneB, class Filter = keep_all>
     requires(detail::is_bodies_motion<SceneA> || detail::is_bodies_motion<SceneB>)
-[[nodiscard]] auto first_meetings(const Policy& on, const SceneA& a, const SceneB& b, const scene_meeting_options<Filter>& options) {
-    return detail::ask_scenes_on_way<detail::first_of_bodies>(on, a, b, options, "abut::first_meetings");
+[[nodiscard]] auto first_meetings(const On& on, const SceneA& a, const SceneB& b, const scene_meeting_options<Filter>& options) {
+    return ask_scenes_on_way(on, detail::first_of_bodies{}, detail::two<SceneA, SceneB>{a, b}, options, "abut::first_meetings");
 }
 
 /// Which bodies meet at all on their ways: a `result` of `index_pair`, those of `first_meetings`, in less time. Memory, errors and
 /// synchronisation are those of that.
-template <execution_policy Policy, class Index, class Filter = keep_all>
-[[nodiscard]] auto touching_bodies(const Policy& on, const bodies_motion<Index>& scene, const scene_meeting_options<Filter>& options) {
-    return detail::ask_scenes_on_way<detail::whether_bodies_meet>(on, scene, options, "abut::touching_bodies");
+template <executor On, class Scene, class Filter = keep_all>
+    requires detail::is_bodies_motion<Scene>
+[[nodiscard]] auto touching_bodies(const On& on, const Scene& scene, const scene_meeting_options<Filter>& options) {
+    return ask_scenes_on_way(on, detail::whether_bodies_meet{}, detail::alone<Scene>{scene}, options, "abut::touching_bodies");
 }
 /// The same of two scenes.
-template <execution_policy Policy, detail::scene_on_way SceneA, detail::scene_on_way SceneB, class Filter = keep_all>
+template <executor On, detail::scene_on_way SceneA, detail::scene_on_way SceneB, class Filter = keep_all>
     requires(detail::is_bodies_motion<SceneA> || detail::is_bodies_motion<SceneB>)
-[[nodiscard]] auto touching_bodies(const Policy& on, const SceneA& a, const SceneB& b, const scene_meeting_options<Filter>& options) {
-    return detail::ask_scenes_on_way<detail::whether_bodies_meet>(on, a, b, options, "abut::touching_bodies");
+[[nodiscard]] auto touching_bodies(const On& on, const SceneA& a, const SceneB& b, const scene_meeting_options<Filter>& options) {
+    return ask_scenes_on_way(on, detail::whether_bodies_meet{}, detail::two<SceneA, SceneB>{a, b}, options, "abut::touching_bodies");
 }
 
 ///@}

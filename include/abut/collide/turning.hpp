@@ -16,8 +16,10 @@
 #include <vector>
 
 #include <abut/collide/executor.hpp>
+#include <abut/collide/list_each.hpp>
 #include <abut/collide/options.hpp>
 #include <abut/collide/placed.hpp>
+#include <abut/collide/question.hpp>
 #include <abut/error.hpp>
 #include <abut/execution/ordered.hpp>
 #include <abut/index/lbvh.hpp>
@@ -143,12 +145,12 @@ inline void check(const meeting_options& options, const std::string& function) {
 }
 
 /// Throws where the tolerance is so small that rounding may hide it.
-inline void check_tolerance(double tolerance, const turning_bounds& both, const std::string& where) {
+inline void check_tolerance(double tolerance, const turning_bounds& both, const auto& where) {
     // So that no square of a volume overflows, and none underflows that matters.
     if (!(both.margin < 0x1p100))
-        throw error(where + ": coordinates are too large for a motion: 2^138 is the most that is taken");
+        throw error(std::string(where) + ": coordinates are too large for a motion: 2^138 is the most that is taken");
     if (tolerance >= 8 * both.margin && tolerance > 0x1p-120) return;
-    throw error(where + ": the tolerance is " + shortest(tolerance) + "; doubles tell " +
+    throw error(std::string(where) + ": the tolerance is " + shortest(tolerance) + "; doubles tell " +
                 shortest(greatest(8 * both.margin, 0x1p-120)) + " and more, 2^-37 of the sizes of bodies and ways");
 }
 
@@ -184,9 +186,9 @@ auto meetings_of(const Policy& on, const std::vector<moving_pair<IndexA, IndexB>
     std::vector<turning_entry> entries;
     entries.reserve(n);
     for (std::size_t i = 0; i < n; ++i) {
-        const std::string where = name(i);
         const auto motion_of = [&](const auto& body, const char* which) {
-            return make_rigid_motion(body.from, body.to, body.about, where + ": " + which);
+            const auto where = [&] { return name(i) + ": " + which; };
+            return make_rigid_motion(body.from, body.to, body.about, name_when_needed{where});
         };
         turning_entry& one = entries.emplace_back();
         one.both = {motion_of(list[i].a, "the first body"), motion_of(list[i].b, "the second body")};
@@ -196,7 +198,8 @@ auto meetings_of(const Policy& on, const std::vector<moving_pair<IndexA, IndexB>
                      way = plain_length(plain_step(one.both.b.way, -1.0, one.both.a.way));
         one.bounds = turning_bounds(one.both, radius_a, radius_b);
         one.looks = way > 0 ? static_cast<int>(least(2 * way / least(radius_a, radius_b), 4.0)) : 0;
-        check_tolerance(options.tolerance, one.bounds, where);
+        const auto where = [&] { return name(i); };
+        check_tolerance(options.tolerance, one.bounds, name_when_needed{where});
     }
     const auto objects_a = make_objects(on, of_a.indices, of_a.object_of, function.c_str());
     const auto objects_b = make_objects(on, of_b.indices, of_b.object_of, function.c_str());
@@ -211,17 +214,35 @@ auto meetings_of(const Policy& on, const std::vector<moving_pair<IndexA, IndexB>
     synchronize(on);
     return out;
 }
-/// The same as a `result`.
-template <class Answer, class Policy, class IndexA, class IndexB>
-auto ask_meetings(const Policy& on, const std::vector<moving_pair<IndexA, IndexB>>& list, const meeting_options& options,
-                  const char* function) {
-    if constexpr (can_turn<Policy, IndexA, IndexB>()) {
-        const auto name = [&](std::size_t i) { return std::string(function) + ": entry " + std::to_string(i) + " of the list"; };
-        return result<Answer, space_of<Policy>>(meetings_of<Answer>(on, list, options, function, name));
-    } else {
-        return result<Answer, space_of<Policy>>();
+/// A list of motions as a form of arguments (question.hpp).
+template <class IndexA, class IndexB>
+struct form_of_motions {
+    using index_a = IndexA;
+    using index_b = IndexB;
+    const std::vector<moving_pair<IndexA, IndexB>>& list;
+};
+template <class IndexA, class IndexB>
+struct form_of_scene<std::vector<moving_pair<IndexA, IndexB>>> {
+    using type = form_of_motions<IndexA, IndexB>;
+};
+/// Meetings, or whether there are any, as an answer of each entry (list_each.hpp).
+template <class Answer>
+struct meetings_of_each {
+    template <class>
+    using found_type = Answer;
+    template <class Policy, class Form>
+    static consteval bool can_be_asked() {
+        return can_turn<Policy, typename Form::index_a, typename Form::index_b>();
     }
-}
+    template <class Policy, class Form, class Positions>
+    auto find(const Policy& on, const Form& form, const meeting_options& options, const char* function,
+              const Positions& position) const {
+        const auto name = [&](std::size_t i) {
+            return std::string(function) + ": entry " + std::to_string(position(i)) + " of the list";
+        };
+        return result<Answer, space_of<Policy>>(meetings_of<Answer>(on, form.list, options, function, name));
+    }
+};
 
 /// A body of which a query of two is asked, over an index.
 template <class Policy, class X>
@@ -298,23 +319,24 @@ inline constexpr bool is_scene = requires {
 /// @par Synchronisation
 /// Returns when the answers are complete; under `cuda` it waits for the policy's stream.
 ///
+/// Of several devices each takes its share of the entries, of indices that `make_bvh` of all of them has made; the answers
+/// lie in memory of the first. Ranks are told of their own entries.
+///
 /// @par Example
 ///     std::vector<abut::moving_pair<index>> edges;
 ///     for (const auto& [p, q] : roadmap) edges.push_back({moving(posed(robot, p), posed(robot, q)), posed(room, here)});
 ///     for (const auto& m : to_host(abut::first_meetings(on, edges, {.tolerance = 1e-3}))) use(m.time);
-template <execution_policy Policy, class IndexA, class IndexB>
-[[nodiscard]] auto first_meetings(const Policy& on, const std::vector<moving_pair<IndexA, IndexB>>& list,
-                                  const meeting_options& options) {
-    return detail::ask_meetings<meeting>(on, list, options, "abut::first_meetings");
+template <executor On, class IndexA, class IndexB>
+[[nodiscard]] auto first_meetings(const On& on, const std::vector<moving_pair<IndexA, IndexB>>& list, const meeting_options& options) {
+    return ask_entries(on, detail::meetings_of_each<meeting>{}, detail::whole(list), options, "abut::first_meetings");
 }
 
 /// Which entries meet anything: a `result` of `std::uint8_t`, one of each entry in their order, 1 where `first_meetings` has
 /// a time and else 0. An entry is looked at no more after its first such pair, so that this takes less time. Memory, errors
 /// and synchronisation are those of `first_meetings`.
-template <execution_policy Policy, class IndexA, class IndexB>
-[[nodiscard]] auto any_each(const Policy& on, const std::vector<moving_pair<IndexA, IndexB>>& list,
-                            const meeting_options& options) {
-    return detail::ask_meetings<std::uint8_t>(on, list, options, "abut::any_each");
+template <executor On, class IndexA, class IndexB>
+[[nodiscard]] auto any_each(const On& on, const std::vector<moving_pair<IndexA, IndexB>>& list, const meeting_options& options) {
+    return ask_entries(on, detail::meetings_of_each<std::uint8_t>{}, detail::whole(list), options, "abut::any_each");
 }
 
 /// What two bodies meet first, as `first_meetings` says of an entry; empty where they are proven to meet nothing. An
@@ -336,20 +358,6 @@ template <execution_policy Policy, class X, class Y>
         return detail::first_meeting_of(on, a, b, options);
     }
 }
-
-/// Several devices, ranks and streams take no motions: that is refused in one sentence.
-///@{
-template <executor On, class X>
-    requires(!execution_policy<On>)
-void first_meetings(const On&, const X&, const meeting_options&) {
-    static_assert(execution_policy<On>, "abut: motions are asked of one policy: several devices, ranks and async take none");
-}
-template <executor On, class X, class Y>
-    requires(!execution_policy<On>)
-void first_meetings(const On&, const X&, const Y&, const meeting_options&) {
-    static_assert(execution_policy<On>, "abut: motions are asked of one policy: several devices, ranks and async take none");
-}
-///@}
 
 ///@}
 

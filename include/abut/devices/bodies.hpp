@@ -3,6 +3,7 @@
 
 // Scenes of many bodies on several devices. Each has all bodies. What is asked of them is in query.hpp.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -12,6 +13,7 @@
 
 #include <abut/collide/bodies.hpp>
 #include <abut/collide/body_pairs.hpp>
+#include <abut/collide/scene_meetings.hpp>
 #include <abut/devices/divide.hpp>
 #include <abut/devices/query.hpp>
 #include <abut/execution/team.hpp>
@@ -26,6 +28,38 @@ template <class Index>
 inline constexpr bool is_many_bodies<replicated<bodies<Index>>> = true;
 template <class Index>
 struct index_of_bodies<replicated<bodies<Index>>> : std::type_identity<Index> {};
+template <class Index>
+inline constexpr bool is_bodies_motion<replicated<bodies_motion<Index>>> = true;
+
+/// What one device has of the scenes that are asked about.
+///@{
+template <class Scene>
+auto on_device(const alone<replicated<Scene>>& all, int k) {
+    return alone<Scene>{all.x[k]};
+}
+template <class SceneA, class SceneB>
+auto on_device(const two<replicated<SceneA>, replicated<SceneB>>& both, int k) {
+    return two<SceneA, SceneB>{both.a[k], both.b[k]};
+}
+///@}
+/// Bodies that meet on their ways: each device asks about its share of those whose boxes meet.
+template <execution::policy_team Team, class Question, class Scenes, class Filter>
+auto ask_scenes_on_way(const Team& team, const Question&, const Scenes& scenes, const scene_meeting_options<Filter>& options, const char* function) {
+    if constexpr (requires { scenes.x; }) {
+        require_as_many(team, scenes.x, function);
+    } else {
+        require_as_many(team, scenes.a, function);
+        require_as_many(team, scenes.b, function);
+    }
+    const auto parts = static_cast<std::size_t>(team.size());
+    const auto found = each_of(team, [&](int k) {
+        return bodies_that_meet<Question>(team[k], on_device(scenes, k), options, function, {static_cast<std::size_t>(k), parts});
+    });
+    std::vector<typename Question::found> all;
+    for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
+    std::sort(all.begin(), all.end(), [](const auto& x, const auto& y) { return Question::bodies(x) < Question::bodies(y); });
+    return result_of_host(team[0], all);
+}
 
 }  // namespace detail
 
@@ -61,6 +95,14 @@ template <execution::policy_team Team, class Index>
     return replicated(detail::each_of(team, [&](int k) {
         return detail::settle_bodies(team[k], std::move(moved[static_cast<std::size_t>(k)]), new_tree);
     }));
+}
+
+/// The scene on each device, on its way from one frame to another.
+template <class Index>
+[[nodiscard]] auto moving(const replicated<bodies<Index>>& at_t0, const replicated<bodies<Index>>& at_t1) {
+    std::vector<bodies_motion<Index>> ways;
+    for (int k = 0; k < at_t0.devices(); ++k) ways.push_back(moving(at_t0[k], at_t1[k]));
+    return replicated(std::move(ways));
 }
 
 ///@}

@@ -22,6 +22,7 @@
 #include <abut/narrow/nearest_point.hpp>
 #include <abut/shape/copy_view.hpp>
 #include <abut/shape/set.hpp>
+#include <abut/shape/turning.hpp>
 
 namespace abut {
 
@@ -36,6 +37,12 @@ public:
 
     /// One for each device, in their order: copies of one set, or what is made of such copies by the same calls.
     explicit replicated(std::vector<X> copies) : copies_(std::move(copies)) {}
+    /// Of what is no X but can be one: a body at rest is one in motion.
+    template <class Y>
+        requires(!std::same_as<X, Y> && std::convertible_to<const Y&, X>)
+    replicated(const replicated<Y>& other) {  // NOLINT
+        for (int k = 0; k < other.devices(); ++k) copies_.push_back(other[k]);
+    }
     /// What lies on the k-th device.
     [[nodiscard]] const X& operator[](int k) const { return copies_[static_cast<std::size_t>(k)]; }
     /// Number of devices.
@@ -372,6 +379,15 @@ template <class X>
     return divided<posed_object<X>>(std::move(placed), object);
 }
 ///@}
+
+/// The index on each device, on its way from one pose to another.
+template <class X>
+[[nodiscard]] auto moving(const replicated<posed_object<X>>& at_t0, const replicated<posed_object<X>>& at_t1,
+                          const turning<typename posed_object<X>::scalar_type>& about = {}) {
+    std::vector<posed_motion<X>> ways;
+    for (int k = 0; k < at_t0.devices(); ++k) ways.push_back(moving(at_t0[k], at_t1[k], about));
+    return replicated(std::move(ways));
+}
 
 ///@}
 

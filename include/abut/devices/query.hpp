@@ -19,6 +19,7 @@
 #include <abut/collide/list_each.hpp>
 #include <abut/collide/query.hpp>
 #include <abut/collide/question.hpp>
+#include <abut/collide/turning.hpp>
 #include <abut/devices/ask.hpp>
 #include <abut/devices/divide.hpp>
 #include <abut/devices/merge.hpp>
@@ -34,6 +35,14 @@ template <class IndexA, class IndexB>
 struct posed_pair<replicated<IndexA>, replicated<IndexB>> {
     replicated<posed_object<IndexA>> a;  ///< the first one
     replicated<posed_object<IndexB>> b;  ///< the second one
+};
+/// The same of two indices in motion, or at rest: `moving_pair<decltype(gear)>{moving(posed(gear, from), posed(gear, to)),
+/// posed(gear, there)}`.
+/// @ingroup devices
+template <class IndexA, class IndexB>
+struct moving_pair<replicated<IndexA>, replicated<IndexB>> {
+    replicated<posed_motion<IndexA>> a;  ///< the first one
+    replicated<posed_motion<IndexB>> b;  ///< the second one
 };
 
 namespace detail {
@@ -173,6 +182,9 @@ struct form_there<alone<X>> : std::type_identity<alone<type_on_device<X>>> {};
 template <class IndexA, class IndexB>
 struct form_there<form_of_list<replicated<IndexA>, replicated<IndexB>>>
     : std::type_identity<form_of_list<IndexA, IndexB>> {};
+template <class IndexA, class IndexB>
+struct form_there<form_of_motions<replicated<IndexA>, replicated<IndexB>>>
+    : std::type_identity<form_of_motions<IndexA, IndexB>> {};
 template <class Index>
 struct form_there<form_of_bodies<replicated<bodies<Index>>>> : std::type_identity<form_of_bodies<bodies<Index>>> {};
 template <class A, class B>
@@ -229,8 +241,8 @@ void ask_shares(const Team& team, const Relation& how, const alone<X>& one, cons
     }
 }
 /// Entries are dealt out one by one, so that neighbours, which are often alike, fall to different devices.
-template <class Team, class IndexA, class IndexB, class Ask>
-void share_entries(const Team& team, const std::vector<posed_pair<replicated<IndexA>, replicated<IndexB>>>& list,
+template <class Team, template <class, class> class Entry, class IndexA, class IndexB, class Ask>
+void share_entries(const Team& team, const std::vector<Entry<replicated<IndexA>, replicated<IndexB>>>& list,
                    const char* function, const Ask& ask) {
     for (const auto& entry : list) {
         require_as_many(team, entry.a, function);
@@ -238,11 +250,11 @@ void share_entries(const Team& team, const std::vector<posed_pair<replicated<Ind
     }
     execution::on_each(team, [&](int k) {
         const entries_of_part position{static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(team.size())};
-        std::vector<posed_pair<IndexA, IndexB>> mine;
+        std::vector<Entry<IndexA, IndexB>> mine;
         for (std::size_t i = position(0); i < list.size(); i = position(mine.size())) {
             mine.push_back({list[i].a[k], list[i].b[k]});
         }
-        ask(k, form_of_list<IndexA, IndexB>{mine}, position);
+        ask(k, whole(mine), position);
     });
 }
 template <class Team, class Relation, class A, class B, class Options, class IsOver, class Ask>

@@ -177,10 +177,11 @@ inline axis_and_angle axis_of_turn(const vec3<double> (&q)[3]) {
 /// axis, and for an axis that is nearly at a right angle to that of the turn; and invalid_geometry where a number is not
 /// finite.
 template <scalar T>
-rigid_motion make_rigid_motion(const rigid<T>& from, const rigid<T>& to, const turning<T>& about,
-                               const std::string& function) {
-    check(from, function + ": at t = 0");
-    check(to, function + ": at t = 1");
+rigid_motion make_rigid_motion(const rigid<T>& from, const rigid<T>& to, const turning<T>& about, const auto& function) {
+    const auto at_start = [&] { return std::string(function) + ": at t = 0"; };
+    const auto at_end = [&] { return std::string(function) + ": at t = 1"; };
+    check(from, name_when_needed{at_start});
+    check(to, name_when_needed{at_end});
     const auto check_vector = [&](const vec3<T>& v, const char* what) {
         const T numbers[3] = {v.x, v.y, v.z};
         for (std::size_t i = 0; i < 3; ++i) {
@@ -216,7 +217,7 @@ rigid_motion make_rigid_motion(const rigid<T>& from, const rigid<T>& to, const t
         const vec3<double> n{wish.x / largest, wish.y / largest, wish.z / largest};
         const double along = plain_dot(how.axis, n) / plain_length(n);
         if (how.angle > 0x1p-10 && !(absolute(along) > 0.5)) {
-            throw error(function + ": the given axis is " + shortest(absolute(along)) +
+            throw error(std::string(function) + ": the given axis is " + shortest(absolute(along)) +
                         " of its length along that of the turn; expected more than 0.5");
         }
         if (along < 0 && how.angle > 0x1p-10) {
@@ -224,7 +225,7 @@ rigid_motion make_rigid_motion(const rigid<T>& from, const rigid<T>& to, const t
             how.angle = 6.28318530717958647693 - how.angle;
         }
     } else if (how.is_half_turn) {
-        throw error(function + ": a half turn, which goes round either way; an axis says which: turning{.axis = ...}");
+        throw error(std::string(function) + ": a half turn, which goes round either way; an axis says which: turning{.axis = ...}");
     }
     m.axis = how.axis;
     m.angle = how.angle;
