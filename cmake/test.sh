@@ -170,7 +170,8 @@ together="-DCMAKE_UNITY_BUILD=$quick $batch"
 # What takes long to run is built by g++ with -Og, where clang's -O0 would cost more than it saves.
 by_gcc='arithmetic shape predicate narrow distributed cuda'
 long_in_collide=' bodies contacts distance extremes hulls impacts inside line_bundles many_within memory meshes nearest pair_rules'
-long_in_collide="$long_in_collide posed query raycast raycast_solids revolution self_pairs validate winding_number within "
+long_in_collide="$long_in_collide posed query raycast raycast_solids revolution self_pairs validate winding_exact"
+long_in_collide="$long_in_collide winding_number within "
 elsewhere_gcc='' elsewhere_clang=''
 if [ $share = yes ]; then
     elsewhere_gcc='execution;index;traverse;devices;io'

@@ -12,6 +12,7 @@
 
 #include "collide/winding_cases.hpp"
 #include "support/catch.hpp"
+#include "support/samples.hpp"
 #include "support/tetrahedra.hpp"
 
 using namespace abut;
@@ -45,14 +46,16 @@ test::surface_data<T> overlapping_bodies(test::uniform& random) {
 template <class T>
 std::vector<vec3<T>> points_around(const test::surface_data<T>& data, test::uniform& random) {
     std::vector<vec3<T>> points;
-    for (int i = 0; i < 150; ++i) points.push_back(random.point<T>(-1, 1) + vec3<T>{T(0.5), T(0.75) * T(i % 3 == 0), 0});
+    const bool are_few = test::sample_count() < 100000;
+    const std::size_t every = are_few ? 20 : 5;
+    for (int i = 0; i < (are_few ? 60 : 150); ++i) points.push_back(random.point<T>(-1, 1) + vec3<T>{T(0.5), T(0.75) * T(i % 3 == 0), 0});
     for (int i = 0; i < 40; ++i) points.push_back(vec3<T>{T(-0.375), 0, 0} + random.point<T>(-0.4, 0.4));
-    for (std::size_t i = 0; i + 1 < data.vertices.size(); i += 5) {
+    for (std::size_t i = 0; i + 1 < data.vertices.size(); i += every) {
         const vec3<T> a = data.vertices[i], b = data.vertices[i + 1];
         points.push_back(a);
         points.push_back({a.x, a.y, static_cast<T>(random(-1, 1))});
         points.push_back({a.x, b.y, a.z});
-        points.push_back({a.x, a.y, std::nextafter(a.z, i % 2 == 0 ? T(9) : T(-9))});
+        points.push_back({a.x, a.y, std::nextafter(a.z, i / every % 2 == 0 ? T(9) : T(-9))});
     }
     return points;
 }

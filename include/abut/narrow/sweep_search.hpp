@@ -258,15 +258,38 @@ private:
         return false;
     }
 
+    /// Whether the face of a triangle is what is touched, which is then settled: most often it is. Its normal, towards the triangle,
+    /// becomes the direction with which the search begins.
+    ABUT_HD constexpr bool face_comes_first(point& along, double until) {
+        using namespace contact_math;
+        const point e = plain_difference(b_[1], b_[0]), f = plain_difference(b_[2], b_[0]), across = plain_cross(e, f);
+        const double nn = plain_dot(across, across);
+        if (!(nn > 0)) return false;
+        const point n = plain_dot(across, plain_difference(b_[0], a_[0])) < 0 ? negated(across) : across;
+        along = n;
+        const std::uint32_t i = a_.farthest(n);
+        const point from = plain_difference(b_[0], a_[i]);
+        const double over = plain_sum(plain_dot(n, from), -plain_product(r_, root(one_double{nn}).high)), speed = plain_dot(n, way_);
+        if (!(over >= 0 && over < plain_product(until, speed))) return false;
+        const point c = plain_difference(plain_step({0, 0, 0}, over / speed, way_), from);
+        const double along_e = plain_dot(across, plain_cross(c, f)), along_f = plain_dot(across, plain_cross(e, c));
+        if (!(along_e > 0 && along_f > 0 && plain_sum(along_e, along_f) < nn)) return false;
+        feature = {{i, i, i}, {0, 1, 2}, 3};
+        return settle(until);
+    }
+
     ABUT_HD constexpr void look(double until) {
         using namespace contact_math;
-        if (b_.size() == 3 && pass_triangle(until)) {
-            met = verdict::no;
-            return;
+        point along = way_between_first();
+        if (b_.size() == 3) {
+            if (pass_triangle(until)) {
+                met = verdict::no;
+                return;
+            }
+            if (face_comes_first(along, until)) return;
         }
         double stop = greatest(r_, plain_product(0x1p-16, extent_));
         plain_simplex s;
-        point along = way_between_first();
         for (int step = 0; step < 96; ++step) {
             const double of_n = root(one_double{plain_dot(along, along)}).high;
             if (!(of_n > 0x1p-600)) return stop_at(s);
@@ -302,7 +325,8 @@ private:
             }
             if (!has_come) continue;
             if (time == 0 && touch_at_start(s)) return;
-            if (settle(s, until)) return;
+            keep(s);
+            if (settle(until)) return;
             if (!(stop > r_) || stop < plain_product(0x1p-40, size_)) return stop_at(s);
             stop = greatest(r_, plain_product(0x1p-6, stop));
         }
@@ -370,9 +394,8 @@ private:
     }
 
     /// Whether the feature is the one that is touched first: then bounds are set, if they do not hold the end.
-    ABUT_HD constexpr bool settle(const plain_simplex& s, double until) {
+    ABUT_HD constexpr bool settle(double until) {
         using namespace contact_math;
-        keep(s);
         const feature_entry<plain_estimate> entry = enter<52>([](double v) { return plain_estimate{v, 0}; });
         if (entry.met != verdict::yes) return false;
         const double at = entry.time.value, lost = plain_product(1 + 0x1p-30, entry.time.error);
