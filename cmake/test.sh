@@ -6,7 +6,7 @@
 #
 # Installs what is missing from the distribution's packages (Debian 12, Ubuntu 24.04 or newer), builds the tests and runs
 # them, all in one run of ctest. With no argument all tests of all layers (the folders of tests/), and what compilers have to refuse:
-#   g++, warnings as errors: arithmetic, shape, predicate, narrow at -O3, and what runs long of collide and distributed;
+#   g++, warnings as errors: arithmetic, shape, predicate at -O3, narrow at -O1, and what runs long of collide and distributed;
 #   clang, where it is there or can be installed: execution, index, traverse, devices, io and the rest of collide. It takes
 #   less than half of the time of g++ for these. Without it g++ builds all;
 #   the .cu files, where nvcc 13.0 or newer and a device are present.

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: MIT
 """Keeps docs/matrix.md true: which pair of shapes has which query, and which query takes which arguments.
 
-matrix.py check ROOT COMPILER [OPTION...]       the page says what compiles; of executors for one query of each front
-matrix.py check-all ROOT COMPILER [OPTION...]   the same for all queries
+matrix.py check ROOT COMPILER [OPTION...]       all that the page says compiles under a processor's policy; and of one query of each
+                                                front it says all that does, under each executor
+matrix.py check-all ROOT COMPILER [OPTION...]   that it says all that does, of all queries
 matrix.py write ROOT COMPILER [OPTION...]       writes it so
 
 Pairs of shapes are asked of the concepts that the queries ask (matrix.cpp). Each form of argument is compiled, for each executor: a
@@ -125,7 +126,7 @@ def cells_of(text, name):
 
 
 def blocks(root, compiler, text, asked_of_all):
-    """What the page has to say. Of queries that are not in asked_of_all it is taken to be right about executors."""
+    """What the page has to say. Of queries that are not in asked_of_all it is taken to be right about executors and about what is refused."""
     forms_told, executors_told = cells_of(text, "forms"), cells_of(text, "executors")
     letter_of = {letter: form for form, letter in LETTERS.items()}
 
@@ -141,7 +142,7 @@ def blocks(root, compiler, text, asked_of_all):
         others = [(executor, form) for executor in EXECUTORS.values() for form in LETTERS if form != "divided" or executor == "devices"]
         if query in asked_of_all:
             return taken(query, probes + others, told, compiler, folder)
-        return taken(query, probes, told, compiler, folder) | (told & set(others))
+        return sifted(query, [p for p in probes if p in told], compiler, folder, "told") | (told & set(others))
 
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(os.cpu_count() or 1) as pool:
         pairs = pool.submit(pairs_of_shapes, root, compiler, folder)
