@@ -218,6 +218,14 @@ template <execution_policy Policy, class... Indices, memory_space Space>
 }
 ///@}
 
+/// Scenes of several kinds are no argument of `between`, and this says so.
+template <class A, class B>
+    requires(detail::is_mixed_bodies<A> || detail::is_mixed_bodies<B>)
+void between(const A&, const B&) {
+    static_assert(many_bodies<A> && many_bodies<B>,
+                  "abut: between takes scenes of one kind each; of several kinds make one scene, whose filter says which bodies meet");
+}
+
 ///@}
 
 }  // namespace abut
