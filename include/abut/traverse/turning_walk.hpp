@@ -167,12 +167,22 @@ private:
             }
             return true;
         }
+        /// Whether the pair, or a pair below it, may come before the best, if nothing of it comes near before `since`: of equal times
+        /// the least ids count.
+        [[nodiscard]] ABUT_HD bool may_come_first([[maybe_unused]] const item& one, [[maybe_unused]] double since) const {
+            if constexpr (requires { best.may_come_first(since, one.a, one.b); }) {
+                const side<A> in_a{walk.a, one.a};
+                const side<B> in_b{walk.b, one.b};
+                return !in_a.is_leaf() || best.may_come_first(since, in_a.shape(), in_b.is_leaf() ? in_b.shape() : 0);
+            }
+            return true;
+        }
         /// Adds what may come near by then.
         ABUT_CALLS_ANY
         template <class Pending>
         ABUT_HD void keep(item one, const turned_box& p, const turned_box& q, Pending& pending) {
             const double until = best.until(), since = static_cast<double>(one.from);
-            if (since > until) return;
+            if (since > until || !may_come_first(one, since)) return;
             frames.move_to(since, both);
             double gap = 0;
             const double from = frames.free_until(p, q, both, bounds, far, until, gap);
