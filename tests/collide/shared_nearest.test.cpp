@@ -70,7 +70,7 @@ rigid<float> aside(float x, float y = 0.25f) { return {{0.6f, -0.8f, 0, 0.8f, 0.
 
 TEST_CASE("shared nearest: two trees, of every layout of two children") {
     const serial on;
-    const test::torus<float> ring(48, 24, 2, 0.5f), small(30, 20, 1.5f, 0.75f);
+    const test::torus<float> ring(24, 12, 2, 0.5f), small(15, 10, 1.5f, 0.75f);
     const mesh<float> a(ring.vertices, ring.faces), b(small.vertices, small.faces);
     const auto tree_a = make_bvh(on, a), tree_b = make_bvh(on, b, {.builder = bvh_builder::sah});
     int found = 0;
@@ -109,7 +109,7 @@ TEST_CASE("shared nearest: many pairs are equally near") {
 
 TEST_CASE("shared nearest: the trees of a list, of each entry and of all") {
     const serial on;
-    const test::torus<float> ring(48, 24, 2, 0.5f), small(30, 20, 1.5f, 0.75f);
+    const test::torus<float> ring(24, 12, 2, 0.5f), small(15, 10, 1.5f, 0.75f);
     const auto a = make_bvh(on, mesh<float>(ring.vertices, ring.faces)), b = make_bvh(on, mesh<float>(small.vertices, small.faces));
     const auto one = make_bvh(on, mesh<float>({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}));
     using index = std::remove_const_t<decltype(a)>;
