@@ -3,8 +3,6 @@
 #include <abut/abut.hpp>
 #include <abut/collide/async.hpp>
 
-#include <vector>
-
 using tree = decltype(abut::make_bvh(abut::serial{}, abut::spheres<float>{}));
 
 void ask(const abut::async<abut::serial, int>& stream, const abut::bodies_motion<tree>& frame) {

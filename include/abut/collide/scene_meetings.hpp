@@ -184,7 +184,7 @@ void ask_bodies_on_way(const Policy& on, const scene_ways<IndexA>& a, const scen
     if (!list.empty()) ask();
 }
 
-/// Which of the pairs of boxes that meet are asked about: one of several devices has each so-manieth.
+/// Which of the pairs of boxes that meet are asked about: they are dealt out to several devices one by one.
 struct share_of_bodies {
     std::size_t part = 0, parts = 1;
     [[nodiscard]] std::vector<index_pair> of(const std::vector<index_pair>& all) const {

@@ -304,6 +304,9 @@ inline constexpr bool is_scene = requires {
 /// Bodies are indices made by make_bvh of any layout, over points, segments, triangles, spheres, capsules, boxes, oriented
 /// boxes and hulls. All but triangles, segments and points are solid; what is inside of a closed mesh does not touch it.
 ///
+/// Of several devices each takes its share of the entries, of indices that `make_bvh` of all of them has made; the answers
+/// lie in memory of the first. Ranks are told of their own entries.
+///
 /// @par Memory
 /// Indices lie in the policy's memory, the list in host memory. The call copies 550 bytes an entry to the policy's memory,
 /// and needs no more as it works but 8 KB a thread (14 KB with `wide` trees). One thread walks an entry.
@@ -318,9 +321,6 @@ inline constexpr bool is_scene = requires {
 ///
 /// @par Synchronisation
 /// Returns when the answers are complete; under `cuda` it waits for the policy's stream.
-///
-/// Of several devices each takes its share of the entries, of indices that `make_bvh` of all of them has made; the answers
-/// lie in memory of the first. Ranks are told of their own entries.
 ///
 /// @par Example
 ///     std::vector<abut::moving_pair<index>> edges;

@@ -91,15 +91,6 @@ struct turned_box {
     }
 };
 
-/// No less than that is between two shapes along a direction of length 1, less what is added to them.
-template <class A, class B>
-[[nodiscard]] ABUT_HD double gap_now(const A& a, const B& b, const turned_frame& at_a, const turned_frame& at_b, const vec3<double>& n,
-                                     double added) {
-    const vec3<double> along_a = at_a.back(n), along_b = at_b.back(n), back_b{-along_b.x, -along_b.y, -along_b.z};
-    const double between = plain_sum(plain_dot(along_b, b.farthest(back_b)), -plain_dot(along_a, a.farthest(along_a)));
-    return plain_sum(between, plain_sum(plain_dot(n, plain_step(at_b.at, -1.0, at_a.at)), -added));
-}
-
 /// The gap between two shapes along a direction of length 1, from a time on. Shapes tell their farthest point along a
 /// direction.
 template <class A, class B>
@@ -235,11 +226,10 @@ struct turned_frames {
         if (!(gap > far)) return time;
         const double of_n = plain_length(n);
         if (!(of_n > 0)) return time;
-        const vec3<double> way{n.x / of_n, n.y / of_n, n.z / of_n};
-        const double left = plain_sum(end, -time);
-        if (!(left > 0)) return gap_now(p, q, a, b, way, plain_sum(far, bounds.margin)) > 0 ? infinity<double> : time;
-        const gap_ahead<turned_box, turned_box> ahead(p, q, both, bounds, a, b, way, far,
+        const gap_ahead<turned_box, turned_box> ahead(p, q, both, bounds, a, b, {n.x / of_n, n.y / of_n, n.z / of_n}, far,
                                                       plain_sum(p.bend(both.a, a), q.bend(both.b, b)));
+        const double left = plain_sum(end, -time);
+        if (!(left > 0)) return ahead.after(0).gap > 0 ? infinity<double> : time;
         const double free = ahead.free_for(left);
         return free < left ? plain_sum(time, free) : infinity<double>;
     }

@@ -182,7 +182,7 @@ private:
         template <class Pending>
         ABUT_HD void keep(item one, const turned_box& p, const turned_box& q, Pending& pending) {
             const double until = best.until(), since = static_cast<double>(one.from);
-            if (since > until || !may_come_first(one, since)) return;
+            if (since > until || (since == until && !may_come_first(one, since))) return;
             frames.move_to(since, both);
             double gap = 0;
             const double from = frames.free_until(p, q, both, bounds, far, until, gap);
