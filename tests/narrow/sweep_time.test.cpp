@@ -37,7 +37,23 @@ auto some_point(const S& s) {
 
 struct sweep_tally {
     std::size_t wrong = 0, other = 0, never = 0, at_start = 0, later = 0, far = 0, bad_normal = 0;
+    std::size_t plainly_wrong = 0, plainly_passed = 0, plainly_met = 0;
 };
+
+/// Whether what a few directions tell holds the time, until the end and until another one.
+template <class S, class U>
+void check_plain_bounds(const swept<S>& s, const U& t, double time, double until, sweep_tally& tally) {
+    if constexpr (requires { detail::plain_sweep_bounds(s, t, until); }) {
+        for (const double end : {1.0, until}) {
+            const detail::time_bounds plainly = detail::plain_sweep_bounds(s, t, end);
+            const bool passes = plainly.first < 0, meets = !passes && plainly.last <= 1;
+            tally.plainly_wrong += passes ? time >= 0 && time <= end : time >= 0 && !(plainly.first <= time && time <= plainly.last);
+            tally.plainly_wrong += meets && time < 0;
+            tally.plainly_passed += passes ? 1 : 0;
+            tally.plainly_met += meets ? 1 : 0;
+        }
+    }
+}
 
 template <class S, class U>
 void check_sweep_times(std::uint64_t count, std::uint64_t seed, sweep_tally& tally) {
@@ -59,6 +75,7 @@ void check_sweep_times(std::uint64_t count, std::uint64_t seed, sweep_tally& tal
         const auto between = detail::sweep_bounds<filtered>(moving, t, 1);
         const bool holds = time < 0 ? between.first < 0 : between.first <= time && time <= between.last;
         tally.other += !holds;
+        check_plain_bounds(moving, t, time, random(), tally);
         tally.other += intersects(moving, t) != (time >= 0) || intersects<exact>(moving, t) != (time >= 0);
         if (time < 0) continue;
         // The point is on the shape that is met, and the mover has come to it.
@@ -77,9 +94,14 @@ template <template <class> class S, template <class> class U, scalar T>
 void check_pair_of_kinds(std::uint64_t count, std::uint64_t seed) {
     sweep_tally tally;
     check_sweep_times<S<T>, U<T>>(count, seed, tally);
-    CAPTURE(seed, tally.never, tally.at_start, tally.later);
+    CAPTURE(seed, tally.never, tally.at_start, tally.later, tally.plainly_passed, tally.plainly_met);
     CHECK(tally.wrong == 0);
     CHECK(tally.other == 0);
+    CHECK(tally.plainly_wrong == 0);
+    if constexpr (detail::has_radius<S<T>> && std::same_as<U<T>, triangle<T>>) {
+        CHECK(test::is_share_above(0.1, tally.plainly_passed, 2 * count));
+        CHECK(test::is_share_above(0.1, tally.plainly_met, 2 * count));
+    }
     CHECK(tally.far * 200 <= count);  // no bound is promised: features may be needles
     CHECK(tally.bad_normal == 0);
     CHECK(test::is_share_above(0.15, tally.later, count));

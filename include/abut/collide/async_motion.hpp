@@ -35,6 +35,7 @@ inline constexpr std::uint64_t most_open_of<impact<T>> = most_open_of<double>;
 struct motion_counts {
     std::uint64_t near, found, undecided;
     std::uint64_t of_vertices, of_edges;  ///< candidates of each kind
+    std::uint64_t left_of_vertices, left_of_edges;  ///< and those that are left of them
     std::uint64_t open;                   ///< what first tries leave
     std::uint64_t first, last;            ///< of these, those that are timed now
     std::uint64_t least_time;             ///< by its bits, which have the order of times; `no_time` if there is none
@@ -52,6 +53,14 @@ struct begin_tries {
         counts->near = counts->of_vertices + counts->of_edges;
         counts->tries = counts->near <= capacity ? static_cast<std::uint32_t>(counts->near) : 0;
         counts->least_time = counts->least_exact = counts->least_key = motion_counts::no_time;
+    }
+};
+/// What was sifted is what was gathered by now.
+struct end_sifting {
+    motion_counts* counts;
+    ABUT_HD void operator()(std::size_t) const {
+        counts->of_vertices = counts->left_of_vertices, counts->of_edges = counts->left_of_edges;
+        counts->tries = counts->tries > 0 ? static_cast<std::uint32_t>(counts->of_vertices + counts->of_edges) : 0;
     }
 };
 struct begin_timings {
@@ -128,17 +137,36 @@ private:
     }
 };
 
+/// What was gathered, in a room whose counts a device knows.
+struct gathered_in_stream {
+    const std::uint64_t *begin, *end;
+    const motion_counts* counts;
+    ABUT_HD operator gathered_features() const {
+        return {begin, end, static_cast<std::size_t>(counts->of_vertices), static_cast<std::size_t>(counts->of_edges)};
+    }
+};
+template <class View, class Judge, class Vertices, class Edges>
+struct sift_in_stream {
+    View both;
+    Judge judge;
+    gathered_in_stream near;
+    Vertices vertices;
+    Edges edges;
+    ABUT_CALLS_ANY
+    ABUT_HD void operator()(std::size_t i) const {
+        Vertices to_vertices = vertices;
+        Edges to_edges = edges;
+        sift_gathered<View, Judge>{both, judge, near}(i, to_vertices, to_edges);
+    }
+};
 template <class View, class Judge, class Open>
 struct try_in_stream {
     View both;
     Judge judge;
-    const std::uint64_t *begin, *end;
-    const motion_counts* counts;
+    gathered_in_stream near;
     Open open;
     ABUT_CALLS_ANY
     ABUT_HD void operator()(std::size_t i) const {
-        const gathered_features near{begin, end, static_cast<std::size_t>(counts->of_vertices),
-                                     static_cast<std::size_t>(counts->of_edges)};
         Open sink = open;
         try_gathered<View, Judge>{both, judge, near}(i, sink);
     }
@@ -279,14 +307,28 @@ public:
         for_each_index(on_, 1, begin_tries{counts, capacity_});
     }
 
+    /// Leaves out candidates of which a judge says at little cost that they do not meet.
+    template <class Judge>
+    void sift(const Judge& judge) {
+        if constexpr (sifting_judge<Judge>) {
+            if (!judge.sifts()) return;
+            motion_counts* const counts = counts_.data();
+            const auto vertices = queue(open_.data(), capacity_).make_sink(&counts->left_of_vertices);
+            const auto edges = from_end(open_.data(), capacity_).make_sink(&counts->left_of_edges);
+            for_each_indirect(on_, &counts->tries,
+                              sift_in_stream<View, Judge, std::remove_const_t<decltype(vertices)>, std::remove_const_t<decltype(edges)>>{
+                                  both_, judge, gathered(), vertices, edges});
+            for_each_index(on_, 1, end_sifting{counts});
+            std::swap(near_, open_);
+        }
+    }
     /// Tries all candidates, and times those that are left.
     template <class Judge, class Take>
     void look(const Judge& judge, const Take& take) {
         static_assert(feature_judge<Judge, View>, "abut: the judge is no timing_judge of pairs of features");
         motion_counts* const counts = counts_.data();
         const auto sink = queue(open_.data(), capacity_).make_sink(&counts->open);
-        const try_in_stream<View, Judge, std::remove_const_t<decltype(sink)>> tries{
-            both_, judge, near_.data(), near_.data() + capacity_, counts, sink};
+        const try_in_stream<View, Judge, std::remove_const_t<decltype(sink)>> tries{both_, judge, gathered(), sink};
         for_each_indirect(on_, &counts->tries, tries);
         for_each_index(on_, 1, begin_timings{counts, false});
         for_each_indirect(on_, &counts->timings,
@@ -312,6 +354,7 @@ public:
     [[nodiscard]] motion_counts* counts() { return counts_.data(); }
 
 private:
+    [[nodiscard]] gathered_in_stream gathered() const { return {near_.data(), near_.data() + capacity_, counts_.data()}; }
     static std::uint64_t room_for(const View& both, std::uint64_t asked) {
         const auto pairs_of = [](std::size_t n, std::size_t m) { return std::uint64_t{n} * m; };
         const std::uint64_t all = pairs_of(both.a.vertices.size(), both.b.faces.size()) +
@@ -379,6 +422,7 @@ void ask_motion(const async<Policy, Outcome>& stream, const ask_impacts<A, Withi
                 if (options.sorted) fill(on, keys.data(), capacity, ~std::uint64_t{0} >> (64 - bits));
                 execution::capped_queue<std::uint64_t, space_of<Policy>> found(keys.data(), capacity);
                 const auto places = found.make_sink(&search.counts()->found);
+                search.sift(judge);
                 search.look(judge, take_all<std::remove_const_t<decltype(places)>>{places, times.data()});
                 if (options.sorted) sort_by_key(on, keys, times, bits);
                 async_state* const state = async_parts::room(stream.into()).state.data();
@@ -407,6 +451,7 @@ void ask_motion(const async<Policy, Outcome>& stream, const ask_first_impact<A, 
             stream, a, b, options.bounds, std::string(question.function) + "_async", [&](auto& search) {
                 using view = std::remove_cvref_t<decltype(search.both())>;
                 execution::buffer_of<Policy, double> times(on, search.capacity());
+                search.sift(judge);
                 search.look_for_least(judge, options.bounds.separation, take_least{times.data()});
                 search.for_each_timed(take_first_key{search.keys(), times.data(), search.counts()});
                 for_each_index(on, 1,
@@ -436,6 +481,7 @@ void ask_motion(const async<Policy, Outcome>& stream, const ask_safe_step<Within
         const bool is_contact = bounds.separation == 0;
         const auto look = [&]<class A>(const time_in_motion<A>& judge) {
             search_in_stream<A, Within>(stream, a, b, bounds, function, [&](auto& search) {
+                search.sift(judge);
                 search.look_for_least(judge, bounds.separation, take_safe{bounds});
                 for_each_index(on, 1, write_safe_step{search.counts(), search.capacity(), is_contact,
                                                       async_parts::room(stream.into()).state.data()});

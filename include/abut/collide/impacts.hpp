@@ -117,6 +117,13 @@ struct time_in_motion {
             return abut::decide<filtered>(s, t);
         }
     }
+    /// Whether a look that costs little says no for sure; where it says nothing of any pair, sifts() is false.
+    template <class S, class U>
+        requires(!std::same_as<A, fast>)
+    ABUT_HD bool is_apart(const S& s, const U& t) const {
+        return motion_filter<is_moving_edge<S>>(points_of(s, t)).are_middles_apart();
+    }
+    [[nodiscard]] bool sifts() const { return bounds.separation == 0; }
     template <class S, class U>
     ABUT_HD double time(const S& s, const U& t) const {
         return time_in_registers<A, is_moving_edge<S>>(points_of(s, t), bounds);

@@ -13,8 +13,10 @@
 #include <type_traits>
 #include <utility>
 
+#include <abut/collide/gathered_sweep.hpp>
 #include <abut/collide/options.hpp>
 #include <abut/collide/raycast.hpp>
+#include <abut/narrow/plain_sweep.hpp>
 #include <abut/narrow/sweep_time.hpp>
 #include <abut/shape/swept.hpp>
 
@@ -85,6 +87,16 @@ struct walk_along_ways {
     using look = look_for_first<walk_along_ways>;
     ABUT_HD look start(std::size_t i) const { return {rows[i], i}; }
     ABUT_HD auto seen(std::size_t i) const { return sweep_seen(frame, rows[i]); }
+
+    /// As far as doubles tell.
+    [[nodiscard]] ABUT_HD time_bounds bounds_in_doubles(const line_type& mover, id_type id, double until) const {
+        return sweep_bounds<A, true>(mover, shapes[id], until);
+    }
+    /// Whether a device looks in stages (gathered_sweep.hpp).
+    static constexpr bool can_gather = std::same_as<Wanted, all_shapes_wanted> && !std::same_as<A, fast> &&
+                                       requires(const line_type& mover, const typename Shapes::shape_type& met) {
+                                           plain_sweep_bounds(mover, met, 1.0);
+                                       };
 };
 
 /// What is known of a touch.
@@ -217,7 +229,11 @@ struct sweeps_in_parts : ask_sweep<A, Filter> {
         execution::best_of_each<space_of<Policy>> best(on, movers.size(), 1.0);
         from_each each{along{walk, frame, shapes, movers, wanted, in_scalars}};
         [[maybe_unused]] const auto watch = watch_ties<Policy, !ask_sweep<A, Filter>::filters>(64, false, each.all.walk, x);
-        for_each_ordered(on, movers.size(), each, best);
+        if constexpr (gathers_first<Policy, along>) {
+            staged_sweep<Policy, along, decltype(best)>(on, movers.size(), each, best);
+        } else {
+            for_each_ordered(on, movers.size(), each, best);
+        }
         finish(best.data());
     }
     template <class Policy, class Operand, class Rows, class Ids>

@@ -4,9 +4,9 @@
 // The search for pairs of features that touch, with their times. A judge's first try leaves few pairs, and of these the time
 // says whether they touch at all: so nothing is decided twice.
 //
-// A thread of the host does both where a pair is found. On a device there are three stages, each with full warps: candidates
-// are gathered, as many as find room; the first try reads these; and what it leaves is timed. A walk that does all of it
-// would hold the registers of all three. What a device cannot time it leaves to the host, which comes when all is found
+// A thread of the host does both where a pair is found. On a device there are stages, each with full warps: candidates
+// are gathered, as many as find room; a look that costs little sifts out most of them; the first try reads the rest; and what it
+// leaves is timed. A walk that does all of it would hold the registers of all. What a device cannot time it leaves to the host, which comes when all is found
 // (impacts.hpp).
 
 #include <algorithm>
@@ -30,6 +30,7 @@ namespace abut::detail {
 ///   decide(s, t)        the first try: `no` of those that do not touch
 ///   time(s, t)          in registers
 ///   time_on_host(s, t)  known
+/// It may have is_apart(s, t), which costs little and is false where it does not know, and sifts(), whether it knows of any.
 template <class J, class S, class U>
 concept timing_judge = requires(const J& judge, const S& s, const U& u) {
     { judge.decide(s, u) } -> std::same_as<verdict>;
@@ -117,6 +118,11 @@ struct gathered_features {
     std::size_t of_vertices, of_edges;
     [[nodiscard]] std::size_t count() const { return of_vertices + of_edges; }
 };
+/// Of one room, from its beginning and from its end.
+template <class Room, class Vertices, class Edges>
+gathered_features in_room(const Room& room, const Vertices& vertices, const Edges& edges) {
+    return {room.data(), room.data() + room.size(), static_cast<std::size_t>(vertices.pushed()), static_cast<std::size_t>(edges.pushed())};
+}
 template <class Queue>
 gathered_features in_two_queues(const Queue& vertices, const Queue& edges) {
     return {vertices.data(), edges.data() + edges.size(), vertices.size(), edges.size()};
@@ -158,6 +164,44 @@ struct gather_features {
     ABUT_HD void finish(std::uint64_t, auto&...) const {}
 };
 
+/// One of what was gathered, by its place: f(key, whether it is a pair of a vertex and a face).
+template <class F>
+ABUT_HD void take_gathered(const gathered_features& near, std::size_t i, const F& f) {
+    if (i < near.of_vertices) {
+        f(near.begin[i], true);
+    } else {
+        f(*(near.end - 1 - (i - near.of_vertices)), false);
+    }
+}
+template <class Judge>
+concept sifting_judge = requires(const Judge& judge) { judge.sifts(); };
+/// What a judge says at little cost.
+template <class Judge>
+struct keep_if_near {
+    const Judge& judge;
+    template <class S, class U>
+    ABUT_INLINE ABUT_HD bool operator()(const S& s, const U& t) const {
+        return !judge.is_apart(s, t);
+    }
+};
+template <class View, class Judge>
+struct sift_gathered {
+    View both;
+    Judge judge;
+    gathered_features near;
+    ABUT_CALLS_ANY
+    template <class Vertices, class Edges>
+    ABUT_HD void operator()(std::size_t i, Vertices& vertices, Edges& edges) const {
+        const keep_if_near<Judge> ask{judge};
+        take_gathered(near, i, [&](std::uint64_t key, bool of_vertex) {
+            if (of_vertex) {
+                if (both.with_vertex(key, ask)) vertices.push(key);
+            } else {
+                if (both.with_edges(key, ask)) edges.push(key);
+            }
+        });
+    }
+};
 template <class View, class Judge>
 struct try_gathered {
     View both;
@@ -167,9 +211,9 @@ struct try_gathered {
     template <class Open>
     ABUT_HD void operator()(std::size_t i, Open& open) const {
         const first_try<Judge> ask{judge};
-        const bool of_vertex = i < near.of_vertices;
-        const std::uint64_t key = of_vertex ? near.begin[i] : *(near.end - 1 - (i - near.of_vertices));
-        if (of_vertex ? both.with_vertex(key, ask) : both.with_edges(key, ask)) open.push(key);
+        take_gathered(near, i, [&](std::uint64_t key, bool of_vertex) {
+            if (of_vertex ? both.with_vertex(key, ask) : both.with_edges(key, ask)) open.push(key);
+        });
     }
 };
 /// Lanes of one warp that follow different roots wait for each other: few pairs are spread over many warps.
@@ -198,8 +242,20 @@ struct time_gathered {
 
 /// Times candidates that have been gathered.
 template <class Policy, class View, class Judge>
-void time_candidates(const Policy& on, const View& both, const Judge& judge, const gathered_features& near,
+void time_candidates(const Policy& on, const View& both, const Judge& judge, gathered_features near,
                      timed_queue<Policy>& hits) {
+    room_of<Policy> less;
+    if constexpr (sifting_judge<Judge>) {
+        if (judge.sifts()) {
+            less = room_of<Policy>(on, near.count() / 2 + 1024);
+            using space = space_of<Policy>;
+            execution::capped_queue<std::uint64_t, space> vertices(less.data(), less.size());
+            execution::capped_queue_from_end<std::uint64_t, space> edges(less.data(), less.size());
+            for_each_index(on, near.count(), sift_gathered<View, Judge>{both, judge, near}, vertices, edges);
+            const gathered_features left = in_room(less, vertices, edges);
+            if (left.count() <= less.size()) near = left;  // or nothing is sifted out
+        }
+    }
     key_queue<Policy> open(on, std::max(near.count() / 8, std::size_t{1} << 16));
     for_each_index(on, near.count(), try_gathered<View, Judge>{both, judge, near}, open);
     const std::size_t n = open.size();
@@ -263,7 +319,7 @@ void search_times(const Policy& on, const Pairing& pairing, const Judge& judge, 
         const time_at_once<view, Judge> time{both, judge};
         pairing.judge_candidates(on, [&](const auto& loop) { loop(time, hits); });
     } else {
-        auto room = room_for_candidates(on, std::max(both.a.count(), both.b.count()), std::size_t{1} << 26);
+        auto room = room_for_candidates(on, std::max(both.a.count(), both.b.count()), std::size_t{1} << 27);
         gathered_features near{};
         gather_in_parts(
             room.size(),

@@ -20,6 +20,7 @@
 #include <abut/collide/options.hpp>
 #include <abut/collide/placed.hpp>
 #include <abut/collide/question.hpp>
+#include <abut/collide/turning_group.hpp>
 #include <abut/error.hpp>
 #include <abut/execution/ordered.hpp>
 #include <abut/index/lbvh.hpp>
@@ -94,6 +95,8 @@ struct first_of_entry {
         bool touch = false;
         [[nodiscard]] ABUT_HD double until() const { return time; }
     };
+    /// Of ways that are long for their bodies what touches at a time or two is sooner found than what meets first.
+    [[nodiscard]] ABUT_HD static double time_of_look(int k) { return k == 0 ? 1 : k == 1 ? 0.5 : k == 2 ? 0.25 : 0.75; }
     [[nodiscard]] ABUT_HD meeting operator()(std::size_t i) const {
         const placed_object<IndexA>& a = objects_a[object_of_a[i]];
         const placed_object<IndexB>& b = objects_b[object_of_b[i]];
@@ -101,18 +104,16 @@ struct first_of_entry {
         best_so_far best;
         const turning_walk<decltype(a.tree), decltype(b.tree)> walk{a.tree, b.tree};
         if constexpr (Any) {
-            // Of ways that are long for their bodies what touches at a time or two is sooner found than what meets first.
-            constexpr float times[] = {1, 0.5f, 0.25f, 0.75f};
             const int looks = entries[i].looks;
             for (int k = 0; k < looks; ++k) {
-                only_at instant{static_cast<double>(times[k])};
+                only_at instant{time_of_look(k)};
                 walk(
                     both, entries[i].bounds, 0, instant,
                     [&](std::uint32_t id_a, std::uint32_t id_b, double) {
                         instant.touch = touch_at_time(a.shapes[id_a], b.shapes[id_b], both, tolerance, instant.time);
                         return !instant.touch;
                     },
-                    times[k]);
+                    static_cast<float>(instant.time));
                 if (instant.touch) return {instant.time, 0, 0, 0};
             }
         }
@@ -123,14 +124,63 @@ struct first_of_entry {
         });
         return best.found;
     }
+
+    /// The same of a group of threads.
+    struct best_of_group : best_so_far {
+        double last = 1;  ///< nothing after that counts
+        [[nodiscard]] ABUT_HD double until() const { return least(last, best_so_far::until()); }
+    };
+    using walk_type = turning_walk<decltype(placed_object<IndexA>::tree), decltype(placed_object<IndexB>::tree)>;
+    using room = turning_room<walk_type, best_of_group>;
+    ABUT_CALLS_ANY
+    template <class Group>
+    [[nodiscard]] ABUT_HD meeting of_group(const Group& group, std::size_t i, room& shared) const {
+        const placed_object<IndexA>& a = objects_a[object_of_a[i]];
+        const placed_object<IndexB>& b = objects_b[object_of_b[i]];
+        const turning_pair& both = entries[i].both;
+        const walk_type walk{a.tree, b.tree};
+        const auto look = [&](double begin, double end, double far, const auto& search) {
+            group.each(0, 1, [&](unsigned) { shared.best = {{}, end}; });
+            const auto has_ended = [](const best_of_group& best) { return Any && best.found.time <= 1; };
+            turning_group run(group, shared, walk, both, entries[i].bounds, far, search, has_ended);
+            run.run(static_cast<float>(begin));
+            const meeting found = shared.best.found;
+            group.each([](unsigned) {});  // all have read it
+            return found;
+        };
+        if constexpr (Any) {
+            for (int k = 0; k < entries[i].looks; ++k) {
+                const double time = time_of_look(k);
+                const meeting found = look(time, time, 0, [&](std::uint32_t id_a, std::uint32_t id_b, double, double) {
+                    const bool touch = touch_at_time(a.shapes[id_a], b.shapes[id_b], both, tolerance, time);
+                    return touch ? turning_time{time, 0} : turning_time{};
+                });
+                if (found.time <= 1) return found;
+            }
+        }
+        return look(0, 1, tolerance, [&](std::uint32_t id_a, std::uint32_t id_b, double from, double until) {
+            return turning_time_of(a.shapes[id_a], b.shapes[id_b], both, tolerance, from, until);
+        });
+    }
 };
-/// A meeting, or whether there is one.
+/// A meeting, or whether there is one. Of each entry by a thread of a host, or by a group.
 template <class Answer, class IndexA, class IndexB>
 struct write_meetings {
-    first_of_entry<std::same_as<Answer, std::uint8_t>, IndexA, IndexB> first;
+    using first_type = first_of_entry<std::same_as<Answer, std::uint8_t>, IndexA, IndexB>;
+    static constexpr unsigned members = execution::subgroup_size;
+    using shared = typename first_type::room;
+    first_type first;
     Answer* out;
-    ABUT_HD void operator()(std::size_t i) const {
-        const meeting found = first(i);
+    void operator()(std::size_t i) const { write(i, first(i)); }
+    ABUT_CALLS_ANY
+    ABUT_HD void operator()(const execution::group<shared, members>& group) const {
+        const std::size_t i = group.first / members;
+        const meeting found = first.of_group(group, i, group.shared);
+        group.each(0, 1, [&](unsigned) { write(i, found); });
+    }
+
+private:
+    ABUT_HD void write(std::size_t i, const meeting& found) const {
         if constexpr (std::same_as<Answer, meeting>) {
             out[i] = found;
         } else {
@@ -206,11 +256,14 @@ auto meetings_of(const Policy& on, const std::vector<moving_pair<IndexA, IndexB>
     execution::buffer_of<Policy, turning_entry> there(on, n);
     upload(on, entries.data(), n, there.data());
     execution::buffer_of<Policy, Answer> out(on, n);
-    using write = write_meetings<Answer, IndexA, IndexB>;
-    for_each_task(on, n,
-                  write{{objects_a->objects.data(), objects_b->objects.data(), objects_a->object_of.data(),
-                         objects_b->object_of.data(), there.data(), options.tolerance},
-                        out.data()});
+    const write_meetings<Answer, IndexA, IndexB> write{{objects_a->objects.data(), objects_b->objects.data(), objects_a->object_of.data(),
+                                                        objects_b->object_of.data(), there.data(), options.tolerance},
+                                                       out.data()};
+    if constexpr (host_policy<Policy>) {
+        for_each_task(on, n, write);
+    } else {
+        for_each_group(on, n * write.members, write);
+    }
     synchronize(on);
     return out;
 }

@@ -182,6 +182,26 @@ private:
     buffer<least_value, host_space> of_threads_;
 };
 
+/// The least value alone, while an index is walked: the walk itself keeps what is found.
+struct least_kept_by_walk {
+    struct sink {
+        double most, least = most;
+
+        ABUT_HD void begin(std::size_t) { least = most; }
+        ABUT_HD void offer(double value) { least = value < least ? value : least; }
+        [[nodiscard]] ABUT_HD double bound() const { return least; }
+        ABUT_HD void end(std::size_t) {}
+        ABUT_HD void close() {}
+    };
+    double most;
+
+    [[nodiscard]] sink make_sink(std::size_t /*thread*/) { return {most}; }
+    template <class Policy>
+    void begin(const Policy&, std::size_t /*threads*/) {}
+    template <class Policy>
+    void end(const Policy&) {}
+};
+
 /// There is no bound, until the walk of an index says that nothing matters any more: sink.stop().
 struct until_stopped {
     struct sink {

@@ -36,6 +36,7 @@
 #include <abut/arithmetic/magnitude.hpp>
 #include <abut/narrow/numbers.hpp>
 #include <abut/narrow/plain_search.hpp>
+#include <abut/narrow/plain_sweep.hpp>
 #include <abut/narrow/solid_hit_time.hpp>
 #include <abut/predicate/exact_sweep.hpp>
 #include <abut/predicate/line_solid.hpp>
@@ -193,6 +194,8 @@ public:
         if (is_searched(size_)) look(until);
     }
 
+    /// Before that they do not touch, for certain.
+    [[nodiscard]] ABUT_HD constexpr double apart_until() const { return apart_until_; }
     /// When they touch, rounded to the nearest double, where pairs of doubles tell; else a negative number.
     [[nodiscard]] ABUT_NOINLINE ABUT_HD constexpr double rounded_time() const {
         if (met != verdict::yes) return -1;
@@ -225,37 +228,11 @@ public:
     }
 
 private:
-    static constexpr double share = 0x1p-46;
+    static constexpr double share = share_of_sweeps;
 
     [[nodiscard]] ABUT_HD constexpr point way_between_first() const {
         const point along = contact_math::plain_difference(b_[0], a_[0]);
         return contact_math::is_zero(along) ? point{1, 0, 0} : along;
-    }
-
-    /// Whether they pass each other for certain until then: a triangle lies beyond one of its sides as seen along the way, or before
-    /// or behind its plane. Most shapes that come near boxes do.
-    [[nodiscard]] ABUT_HD constexpr bool pass_triangle(double until) const {
-        const point p[3] = {b_[0], b_[1], b_[2]};
-        for (int k = 0; k < 4; ++k) {
-            const point &from = p[k % 3], side = contact_math::plain_difference(p[(k + 1) % 3], from);
-            const point n = plain_cross(k < 3 ? way_ : side, k < 3 ? side : contact_math::plain_difference(p[2], from));
-            const double of_n = contact_math::root(contact_math::one_double{contact_math::plain_dot(n, n)}).high;
-            if (!(of_n > 0x1p-600)) continue;
-            double least_b = infinity<double>, most_b = -infinity<double>, least_a = infinity<double>, most_a = -infinity<double>;
-            for (const point& q : p) {
-                const double x = contact_math::plain_dot(n, q);
-                least_b = least(least_b, x), most_b = greatest(most_b, x);
-            }
-            for (std::uint32_t i = 0; i < a_.size(); ++i) {
-                const double x = contact_math::plain_dot(n, a_[i]);
-                least_a = least(least_a, x), most_a = greatest(most_a, x);
-            }
-            const double away = plain_sum(plain_product(r_, of_n), plain_product(plain_product(share, of_n), size_)),
-                         speed = contact_math::plain_dot(n, way_), gone = plain_product(until, speed);
-            const double ahead = plain_sum(plain_sum(least_b, -most_a), -away), behind = plain_sum(plain_sum(least_a, -most_b), -away);
-            if ((ahead > 0 && plain_sum(ahead, -gone) > 0) || (behind > 0 && plain_sum(behind, gone) > 0)) return true;
-        }
-        return false;
     }
 
     /// Whether the face of a triangle is what is touched, which is then settled: most often it is. Its normal, towards the triangle,
@@ -282,7 +259,8 @@ private:
         using namespace contact_math;
         point along = way_between_first();
         if (b_.size() == 3) {
-            if (pass_triangle(until)) {
+            const point corners[3] = {b_[0], b_[1], b_[2]};
+            if (apart_from_triangle(a_, corners, way_, r_, size_, until) == infinity<double>) {
                 met = verdict::no;
                 return;
             }

@@ -90,8 +90,9 @@ ABUT_NOINLINE ABUT_HD constexpr double sweep_time(const swept<S>& s, const U& t)
     });
 }
 
-/// Bounds of what sweep_time gives, or negative ones where it is surely later than `until`.
-template <arithmetic A, class S, class U>
+/// Bounds of what sweep_time gives, or negative ones where it is surely later than `until`. Where doubles do not tell whether it is,
+/// they come from integers, or, `InDoubles`, the last is infinite.
+template <arithmetic A, bool InDoubles = false, class S, class U>
     requires sweepable_cores<S, U>
 ABUT_HD constexpr time_bounds sweep_bounds(const swept<S>& s, const U& t, double until) {
     using T = scalar_type_of<S>;
@@ -101,6 +102,7 @@ ABUT_HD constexpr time_bounds sweep_bounds(const swept<S>& s, const U& t, double
                 const sweep_search<T> found(both, least(until * (1 + 0x1p-50), 1.0));
                 if (found.met == verdict::no) return time_bounds{-1, -1};
                 if (found.met == verdict::yes) return time_bounds{found.first, found.last};
+                if constexpr (InDoubles) return time_bounds{found.apart_until(), infinity<double>};
                 const double time = exact_sweep_time(both, found.time);
                 return time_bounds{time, time};
             });

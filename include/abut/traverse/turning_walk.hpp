@@ -40,12 +40,11 @@ struct turning_walk {
     ABUT_HD void operator()(const turning_pair& both, const turning_bounds& bounds, double far, const Best& best,
                             const Visitor& visitor, float begin = 0) const {
         if (a.size() == 0 || b.size() == 0) return;
-        step<Best, Visitor> one{*this, both, bounds, far, best, visitor};
+        turned_frames frames;
+        step<Best, Visitor> one({*this, both, bounds, far, best, frames}, visitor);
         heap waiting;
-        const side<A> at_a{a, root_of(a)};
-        const side<B> at_b{b, root_of(b)};
-        one.keep({at_a.link, at_b.link, begin, 0}, turned_box(at_a.box(), both.a.centre),
-                 turned_box(at_b.box(), both.b.centre), waiting);
+        item root = roots(begin);
+        if (one.keeps_roots(root)) waiting.add(root);
         while (waiting.count > 0) {
             const item at = waiting.take();
             if (static_cast<double>(at.from) > best.until()) return;
@@ -62,8 +61,18 @@ struct turning_walk {
         }
     }
 
-private:
     static constexpr int width = A::width > B::width ? A::width : B::width;
+    /// Pairs that wait where all that one makes is taken before the others do.
+    static constexpr int most_below = 2 * bvh_max_depth * (width - 1) + 2;
+
+    [[nodiscard]] ABUT_HD item roots(float begin) const { return {root_of(a), root_of(b), begin, 0}; }
+    [[nodiscard]] ABUT_HD bool is_pair_of_shapes(const item& at) const {
+        return side<A>{a, at.a}.is_leaf() && side<B>{b, at.b}.is_leaf();
+    }
+    [[nodiscard]] ABUT_HD std::uint32_t shape_a(const item& at) const { return side<A>{a, at.a}.shape(); }
+    [[nodiscard]] ABUT_HD std::uint32_t shape_b(const item& at) const { return side<B>{b, at.b}.shape(); }
+
+private:
     static constexpr std::uint32_t whole = static_cast<std::uint32_t>(-1);  ///< the leaf of a tree of one shape
 
     template <class Tree>
@@ -86,15 +95,11 @@ private:
         [[nodiscard]] ABUT_HD std::uint32_t shape() const {
             return link == whole ? tree.root().index() : shape_of_leaf(tree, link);
         }
-        /// f(link, box) of each child.
-        ABUT_CALLS_ANY
-        template <class F>
-        ABUT_HD void each_child(const F& f) const {
-            const auto& node = tree.fetch(link);
-            for (int i = 0; i < tree.children(node); ++i) {
-                f(link_to(tree.child(node, i), Tree::width * link + static_cast<std::uint32_t>(i)), tree.bounds(node, i));
-            }
+        [[nodiscard]] ABUT_HD int children() const { return tree.children(tree.fetch(link)); }
+        [[nodiscard]] ABUT_HD side child(int i) const {
+            return {tree, link_to(tree.child(tree.fetch(link), i), Tree::width * link + static_cast<std::uint32_t>(i))};
         }
+        [[nodiscard]] ABUT_HD auto box_of_child(int i) const { return tree.bounds(tree.fetch(link), i); }
     };
     /// The earliest is taken.
     struct heap {
@@ -123,7 +128,7 @@ private:
     };
     /// Of what a pair makes the earliest is taken first, and all of it before what was there.
     struct stack {
-        item at[std::size_t{2 * bvh_max_depth * (width - 1) + 2}];  // not initialised
+        item at[std::size_t{most_below}];  // not initialised
         int count = 0, first = 0;
 
         ABUT_HD item take() {
@@ -138,35 +143,47 @@ private:
         }
     };
 
-    template <class Best, class Visitor>
-    struct step {
+public:
+    /// What may come near, of the children of a pair.
+    template <class Best>
+    struct look {
         const turning_walk& walk;
         const turning_pair& both;
         const turning_bounds& bounds;
         double far;
         const Best& best;
-        const Visitor& visitor;
-        turned_frames frames{};
+        turned_frames& frames;
 
-        /// Visits a pair of shapes, and tells whether to go on; or opens a pair of nodes.
-        ABUT_CALLS_ANY
-        template <class Pending>
-        ABUT_HD bool take(const item& at, Pending& pending) {
-            const side<A> in_a{walk.a, at.a};
-            const side<B> in_b{walk.b, at.b};
-            if (in_a.is_leaf() && in_b.is_leaf()) return visitor(in_a.shape(), in_b.shape(), static_cast<double>(at.from));
-            const turned_box p(in_a.box(), both.a.centre), q(in_b.box(), both.b.centre);
-            if (!in_a.is_leaf() && (in_b.is_leaf() || dot(p.half, p.half) >= dot(q.half, q.half))) {
-                in_a.each_child([&](std::uint32_t link, const auto& box) {
-                    keep({link, at.b, at.from, 0}, turned_box(box, both.a.centre), q, pending);
-                });
-            } else {
-                in_b.each_child([&](std::uint32_t link, const auto& box) {
-                    keep({at.a, link, at.from, 0}, p, turned_box(box, both.b.centre), pending);
-                });
-            }
-            return true;
+        /// Of the roots.
+        [[nodiscard]] ABUT_HD bool keeps_roots(item& root) {
+            return keeps(root, turned_box(side<A>{walk.a, root.a}.box(), both.a.centre),
+                         turned_box(side<B>{walk.b, root.b}.box(), both.b.centre));
         }
+        /// A pair of nodes, of which the larger one is opened.
+        class opened {
+        public:
+            ABUT_HD opened(const look& by, const item& at)
+                : a_{by.walk.a, at.a}, b_{by.walk.b, at.b}, p_(a_.box(), by.both.a.centre), q_(b_.box(), by.both.b.centre),
+                  opens_a_(!a_.is_leaf() && (b_.is_leaf() || dot(p_.half, p_.half) >= dot(q_.half, q_.half))) {}
+            [[nodiscard]] ABUT_HD int children() const { return opens_a_ ? a_.children() : b_.children(); }
+            /// Makes `one` the i-th child, and tells whether it is kept.
+            [[nodiscard]] ABUT_HD bool keeps_child(look& by, int i, item& one) const {
+                if (opens_a_) {
+                    one.a = a_.child(i).link;
+                    return by.keeps(one, turned_box(a_.box_of_child(i), by.both.a.centre), q_);
+                }
+                one.b = b_.child(i).link;
+                return by.keeps(one, p_, turned_box(b_.box_of_child(i), by.both.b.centre));
+            }
+
+        private:
+            side<A> a_;
+            side<B> b_;
+            turned_box p_, q_;
+            bool opens_a_;
+        };
+
+    private:
         /// Whether the pair, or a pair below it, may come before the best, if nothing of it comes near before `since`: of equal times
         /// the least ids count.
         [[nodiscard]] ABUT_HD bool may_come_first([[maybe_unused]] const item& one, [[maybe_unused]] double since) const {
@@ -177,19 +194,39 @@ private:
             }
             return true;
         }
-        /// Adds what may come near by then.
-        ABUT_CALLS_ANY
-        template <class Pending>
-        ABUT_HD void keep(item one, const turned_box& p, const turned_box& q, Pending& pending) {
+        /// Whether it may come near by then, and not before when.
+        [[nodiscard]] ABUT_HD bool keeps(item& one, const turned_box& p, const turned_box& q) {
             const double until = best.until(), since = static_cast<double>(one.from);
-            if (since > until || (since == until && !may_come_first(one, since))) return;
+            if (since > until || (since == until && !may_come_first(one, since))) return false;
             frames.move_to(since, both);
             double gap = 0;
             const double from = frames.free_until(p, q, both, bounds, far, until, gap);
-            if (from > until) return;
+            if (from > until) return false;
             if (from > since) one.from = greatest(one.from, static_cast<float>(from * (1 - 0x1p-22)));
             one.gap = static_cast<float>(gap);
-            pending.add(one);
+            return true;
+        }
+    };
+
+private:
+    template <class Best, class Visitor>
+    struct step : look<Best> {
+        const Visitor& visitor;
+
+        ABUT_HD step(const look<Best>& by, const Visitor& visits) : look<Best>(by), visitor(visits) {}
+        /// Visits a pair of shapes, and tells whether to go on; or opens a pair of nodes.
+        ABUT_CALLS_ANY
+        template <class Pending>
+        ABUT_HD bool take(const item& at, Pending& pending) {
+            if (this->walk.is_pair_of_shapes(at)) {
+                return visitor(this->walk.shape_a(at), this->walk.shape_b(at), static_cast<double>(at.from));
+            }
+            const typename look<Best>::opened pair(*this, at);
+            for (int i = 0; i < pair.children(); ++i) {
+                item child = at;
+                if (pair.keeps_child(*this, i, child)) pending.add(child);
+            }
+            return true;
         }
     };
 };
