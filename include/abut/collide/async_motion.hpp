@@ -290,13 +290,14 @@ class motion_in_stream {
     using numbers = execution::buffer_of<Policy, std::uint64_t>;
     using queue = execution::capped_queue<std::uint64_t, space_of<Policy>>;
     using from_end = execution::capped_queue_from_end<std::uint64_t, space_of<Policy>>;
+    using features = features_on_way<View>;
 
 public:
     /// `loops` are those of a result, whose open capacity is the room for candidates.
     template <class Pairing, class Room>
     motion_in_stream(const Policy& policy, const Pairing& pairing, Room& loops)
         : on_(policy), both_(pairing.view()), capacity_(room_for(both_, loops.open_capacity)), near_(policy, capacity_),
-          open_(policy, capacity_), counts_(policy, 1) {
+          open_(policy, capacity_), counts_(policy, 1), vertices_(policy, both_) {
         fill(on_, counts_.data(), 1, motion_counts{});
         fill(on_, loops.counters.data(), loops.counters.size(), std::uint64_t{0});
         motion_counts* const counts = counts_.data();
@@ -316,8 +317,8 @@ public:
             const auto vertices = queue(open_.data(), capacity_).make_sink(&counts->left_of_vertices);
             const auto edges = from_end(open_.data(), capacity_).make_sink(&counts->left_of_edges);
             for_each_indirect(on_, &counts->tries,
-                              sift_in_stream<View, Judge, std::remove_const_t<decltype(vertices)>, std::remove_const_t<decltype(edges)>>{
-                                  both_, judge, gathered(), vertices, edges});
+                              sift_in_stream<features, Judge, std::remove_const_t<decltype(vertices)>, std::remove_const_t<decltype(edges)>>{
+                                  vertices_.view(both_), judge, gathered(), vertices, edges});
             for_each_index(on_, 1, end_sifting{counts});
             std::swap(near_, open_);
         }
@@ -328,11 +329,11 @@ public:
         static_assert(feature_judge<Judge, View>, "abut: the judge is no timing_judge of pairs of features");
         motion_counts* const counts = counts_.data();
         const auto sink = queue(open_.data(), capacity_).make_sink(&counts->open);
-        const try_in_stream<View, Judge, std::remove_const_t<decltype(sink)>> tries{both_, judge, gathered(), sink};
+        const try_in_stream<features, Judge, std::remove_const_t<decltype(sink)>> tries{vertices_.view(both_), judge, gathered(), sink};
         for_each_indirect(on_, &counts->tries, tries);
         for_each_index(on_, 1, begin_timings{counts, false});
         for_each_indirect(on_, &counts->timings,
-                          time_in_stream<View, Judge, Take>{both_, judge, open_.data(), counts, take});
+                          time_in_stream<features, Judge, Take>{vertices_.view(both_), judge, open_.data(), counts, take});
     }
     /// The same for the least time alone: what may meet in the first part of the step, then what may still come before that.
     template <class Judge, class Take>
@@ -368,6 +369,7 @@ private:
     std::uint64_t capacity_;
     numbers near_, open_;
     execution::buffer_of<Policy, motion_counts> counts_;
+    vertices_on_way<Policy, View> vertices_;
 };
 
 /// Whether an impact query in a stream takes both.

@@ -8,9 +8,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <type_traits>
 
 #include <abut/collide/keys.hpp>
 #include <abut/collide/pair_rule.hpp>
+#include <abut/execution/buffer.hpp>
+#include <abut/execution/host.hpp>
 #include <abut/predicate/motion.hpp>
 #include <abut/shape/features.hpp>
 #include <abut/shape/motion.hpp>
@@ -141,6 +144,81 @@ private:
         prefetch_shape(v, i, step);
         prefetch_shape(w, j, step);
     }
+};
+
+/// A vertex at both ends of the step, beside each other: what a device reads at once.
+template <scalar T>
+struct alignas(16) vertex_on_way {
+    T at[8];
+
+    [[nodiscard]] ABUT_HD vec3<T> t0() const { return {at[0], at[1], at[2]}; }
+    [[nodiscard]] ABUT_HD vec3<T> t1() const { return {at[4], at[5], at[6]}; }
+};
+template <class Vertices>
+struct put_on_way {
+    using T = typename Vertices::scalar_type;
+    Vertices from;
+    vertex_on_way<T>* to;
+    ABUT_HD void operator()(std::size_t i) const {
+        const auto p = from[i];
+        to[i] = {{p.t0.x, p.t0.y, p.t0.z, 0, p.t1.x, p.t1.y, p.t1.z, 0}};
+    }
+};
+/// The same pairs of features of a view, from such vertices.
+template <class View>
+struct features_on_way {
+    using T = typename View::scalar_type;
+    View both;
+    const vertex_on_way<T>*a, *b;
+
+    ABUT_CALLS_ANY
+    template <class F>
+    ABUT_INLINE ABUT_HD auto with_shapes(std::uint64_t k, const F& f) const {
+        return both.key.kind(k) == feature_pair::edge_edge ? with_edges(k, f) : with_vertex(k, f);
+    }
+    ABUT_CALLS_ANY
+    template <class F>
+    ABUT_INLINE ABUT_HD auto with_edges(std::uint64_t k, const F& f) const {
+        return f(edge_at(a, corners_at(both.a.edges.t0.edges, both.key.a(k))), edge_at(b, corners_at(both.b.edges.t0.edges, both.key.b(k))));
+    }
+    ABUT_CALLS_ANY
+    template <class F>
+    ABUT_INLINE ABUT_HD auto with_vertex(std::uint64_t k, const F& f) const {
+        const bool vertex_first = both.key.kind(k) == feature_pair::vertex_face;
+        const std::uint32_t i = both.key.a(k), j = both.key.b(k);
+        const vertex_on_way<T> p = vertex_first ? a[i] : b[j];
+        const std::uint32_t* const corner = vertex_first ? corners_at(both.b.faces.t0.faces, j) : corners_at(both.a.faces.t0.faces, i);
+        const vertex_on_way<T>* const of = vertex_first ? b : a;
+        const vertex_on_way<T> x = of[corner[0]], y = of[corner[1]], z = of[corner[2]];
+        return f(motion<vec3<T>>{p.t0(), p.t1()}, motion<triangle<T>>{{x.t0(), y.t0(), z.t0()}, {x.t1(), y.t1(), z.t1()}});
+    }
+
+private:
+    ABUT_INLINE ABUT_HD static motion<segment<T>> edge_at(const vertex_on_way<T>* of, const std::uint32_t* end) {
+        const vertex_on_way<T> x = of[end[0]], y = of[end[1]];
+        return {{x.t0(), y.t0()}, {x.t1(), y.t1()}};
+    }
+};
+/// Keeps them. The two meshes of a view may be one.
+template <class Policy, class View>
+class vertices_on_way {
+    using T = typename View::scalar_type;
+    using buffer = execution::buffer_of<Policy, vertex_on_way<T>>;
+
+public:
+    vertices_on_way(const Policy& on, const View& both)
+        : of_a_(on, both.a.vertices.size()),
+          of_b_(both.within ? buffer() : buffer(on, both.b.vertices.size())) {
+        using vertices = std::remove_cvref_t<decltype(both.a.vertices)>;
+        for_each_index(on, of_a_.size(), put_on_way<vertices>{both.a.vertices, of_a_.data()});
+        for_each_index(on, of_b_.size(), put_on_way<vertices>{both.b.vertices, of_b_.data()});
+    }
+    [[nodiscard]] features_on_way<View> view(const View& both) const {
+        return {both, of_a_.data(), both.within ? of_a_.data() : of_b_.data()};
+    }
+
+private:
+    buffer of_a_, of_b_;
 };
 
 }  // namespace abut::detail

@@ -285,8 +285,9 @@ struct sweeps_in_parts : ask_sweep<A, Filter> {
 ///
 /// @par Memory
 /// As in @ref queries. The result lies in the policy's memory, 32 bytes a row in float and 64 in double; scratch takes up to
-/// twice as much. Under `cuda` the last stage has a stack of some 33 KB in float, and more than twice that in double. CUDA sets
-/// that aside once for all threads that the device holds at a time.
+/// twice as much. Under `cuda` balls and capsules that go at triangles take up to 150 bytes a row more, and 2 MB at least: they go in
+/// stages (collide/gathered_sweep.hpp). There the last stage has a stack of some 27 KB in float, and more than twice that in double. CUDA
+/// sets that aside once for all threads that the device holds at a time.
 ///
 /// @par Errors
 /// - `invalid_geometry`: a view, a single shape or a way has a number that is not finite, or a pose is no rotation.

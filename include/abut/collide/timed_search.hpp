@@ -242,8 +242,11 @@ struct time_gathered {
 
 /// Times candidates that have been gathered.
 template <class Policy, class View, class Judge>
-void time_candidates(const Policy& on, const View& both, const Judge& judge, gathered_features near,
+void time_candidates(const Policy& on, const View& view, const Judge& judge, gathered_features near,
                      timed_queue<Policy>& hits) {
+    const vertices_on_way<Policy, View> vertices_of(on, view);
+    const auto both = vertices_of.view(view);
+    using features = std::remove_const_t<decltype(both)>;
     room_of<Policy> less;
     if constexpr (sifting_judge<Judge>) {
         if (judge.sifts()) {
@@ -251,16 +254,16 @@ void time_candidates(const Policy& on, const View& both, const Judge& judge, gat
             using space = space_of<Policy>;
             execution::capped_queue<std::uint64_t, space> vertices(less.data(), less.size());
             execution::capped_queue_from_end<std::uint64_t, space> edges(less.data(), less.size());
-            for_each_index(on, near.count(), sift_gathered<View, Judge>{both, judge, near}, vertices, edges);
+            for_each_index(on, near.count(), sift_gathered<features, Judge>{both, judge, near}, vertices, edges);
             const gathered_features left = in_room(less, vertices, edges);
             if (left.count() <= less.size()) near = left;  // or nothing is sifted out
         }
     }
     key_queue<Policy> open(on, std::max(near.count() / 8, std::size_t{1} << 16));
-    for_each_index(on, near.count(), try_gathered<View, Judge>{both, judge, near}, open);
+    for_each_index(on, near.count(), try_gathered<features, Judge>{both, judge, near}, open);
     const std::size_t n = open.size();
     const std::size_t spread = spread_of(n);
-    for_each_index(on, n * spread, time_gathered<View, Judge>{both, judge, open.data(), spread}, hits);
+    for_each_index(on, n * spread, time_gathered<features, Judge>{both, judge, open.data(), spread}, hits);
 }
 
 /// Room on a device for candidates of shapes: 128 of each, 2^23 at least and `most` at most.

@@ -4,7 +4,7 @@
 // first_meeting, first_meetings, any_each: when bodies that turn meet, and which shapes. By definition the first is the pair
 // of shapes with the least time, as narrow/turning_time.hpp computes it of the two alone, and of equal ones the one with the
 // least ids. Trees only pass over what comes no nearer than the tolerance by then (traverse/turning_walk.hpp). Each entry of
-// a list is walked by one thread.
+// a list is walked by one thread of a host, or by a warp of a device (turning_group.hpp).
 
 #include <concepts>
 #include <cstddef>
@@ -362,7 +362,7 @@ inline constexpr bool is_scene = requires {
 ///
 /// @par Memory
 /// Indices lie in the policy's memory, the list in host memory. The call copies 550 bytes an entry to the policy's memory,
-/// and needs no more as it works but 8 KB a thread (14 KB with `wide` trees). One thread walks an entry.
+/// and needs no more as it works but 8 KB a thread (14 KB with `wide` trees). One thread of a host walks an entry, and 32 of a device.
 ///
 /// @par Errors
 /// - `error`, whose message names the entry: the tolerance is not above 0, or below what doubles tell of bodies and ways
@@ -395,7 +395,7 @@ template <executor On, class IndexA, class IndexB>
 /// What two bodies meet first, as `first_meetings` says of an entry; empty where they are proven to meet nothing. An
 /// argument is in motion, `moving(posed(x, from), posed(x, to))`, or at rest, `posed(x, pose)` or x: an index, a set, a view
 /// or one shape. A tree is made for the call where x is none. Memory, errors and synchronisation are those of
-/// `first_meetings` and `make_bvh`. One thread walks: give many motions to one call of that.
+/// `first_meetings` and `make_bvh`. One thread walks, or 32 of a device: give many motions to one call of that.
 ///
 ///     if (abut::first_meeting(on, abut::moving(posed(robot, from), posed(robot, to)), room, {.tolerance = 1e-3}))
 ///     turn_back();
