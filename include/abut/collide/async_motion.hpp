@@ -37,6 +37,7 @@ struct motion_counts {
     std::uint64_t of_vertices, of_edges;  ///< candidates of each kind
     std::uint64_t left_of_vertices, left_of_edges;  ///< and those that are left of them
     std::uint64_t open;                   ///< what first tries leave
+    std::uint64_t late;                   ///< and second ones
     std::uint64_t first, last;            ///< of these, those that are timed now
     std::uint64_t least_time;             ///< by its bits, which have the order of times; `no_time` if there is none
     std::uint64_t least_exact;            ///< of times that are no bounds
@@ -157,6 +158,30 @@ struct sift_in_stream {
         Vertices to_vertices = vertices;
         Edges to_edges = edges;
         sift_gathered<View, Judge>{both, judge, near}(i, to_vertices, to_edges);
+    }
+};
+/// What is open is what second tries leave by now.
+struct end_late {
+    motion_counts* counts;
+    ABUT_HD void operator()(std::size_t) const {
+        counts->last = counts->open = counts->late;
+        const auto n = static_cast<std::uint32_t>(counts->last);
+        counts->spread = spread_of(n);
+        counts->timings = n * static_cast<std::uint32_t>(counts->spread);
+    }
+};
+/// A lane in `spread`, as in time_in_stream.
+template <class View, class Judge, class Open>
+struct sift_late_in_stream {
+    View both;
+    Judge judge;
+    const std::uint64_t* keys;
+    const motion_counts* counts;
+    Open open;
+    ABUT_CALLS_ANY
+    ABUT_HD void operator()(std::size_t i) const {
+        Open sink = open;
+        if (i % counts->spread == 0) sift_late<View, Judge>{both, judge, keys}(i / counts->spread, sink);
     }
 };
 template <class View, class Judge, class Open>
@@ -323,8 +348,8 @@ public:
             std::swap(near_, open_);
         }
     }
-    /// Tries all candidates, and times those that are left.
-    template <class Judge, class Take>
+    /// Tries all candidates, and times those that are left. `Once`, they are not needed again.
+    template <bool Once, class Judge, class Take>
     void look(const Judge& judge, const Take& take) {
         static_assert(feature_judge<Judge, View>, "abut: the judge is no timing_judge of pairs of features");
         motion_counts* const counts = counts_.data();
@@ -332,6 +357,16 @@ public:
         const try_in_stream<features, Judge, std::remove_const_t<decltype(sink)>> tries{vertices_.view(both_), judge, gathered(), sink};
         for_each_indirect(on_, &counts->tries, tries);
         for_each_index(on_, 1, begin_timings{counts, false});
+        if constexpr (Once && sifting_judge<Judge>) {
+            if (judge.sifts()) {
+                const auto late = queue(near_.data(), capacity_).make_sink(&counts->late);
+                for_each_indirect(on_, &counts->timings,
+                                  sift_late_in_stream<features, Judge, std::remove_const_t<decltype(late)>>{
+                                      vertices_.view(both_), judge, open_.data(), counts, late});
+                for_each_index(on_, 1, end_late{counts});
+                std::swap(near_, open_);
+            }
+        }
         for_each_indirect(on_, &counts->timings,
                           time_in_stream<features, Judge, Take>{vertices_.view(both_), judge, open_.data(), counts, take});
     }
@@ -340,7 +375,7 @@ public:
     void look_for_least(const Judge& judge, double separation, const Take& take) {
         constexpr double parts[] = {0, first_part_of_step, 1 + last_time_bit};
         for (int k = 0; k < 2; ++k) {
-            look(sooner_than_others<Judge>{judge, separation, parts[k], parts[k + 1], counts_.data()}, take);
+            look<false>(sooner_than_others<Judge>{judge, separation, parts[k], parts[k + 1], counts_.data()}, take);
         }
     }
     /// f(i) of all that was left.
@@ -425,7 +460,7 @@ void ask_motion(const async<Policy, Outcome>& stream, const ask_impacts<A, Withi
                 execution::capped_queue<std::uint64_t, space_of<Policy>> found(keys.data(), capacity);
                 const auto places = found.make_sink(&search.counts()->found);
                 search.sift(judge);
-                search.look(judge, take_all<std::remove_const_t<decltype(places)>>{places, times.data()});
+                search.template look<true>(judge, take_all<std::remove_const_t<decltype(places)>>{places, times.data()});
                 if (options.sorted) sort_by_key(on, keys, times, bits);
                 async_state* const state = async_parts::room(stream.into()).state.data();
                 for_each_index(on, 1, write_list_state{&search.counts()->near, capacity, search.capacity(), state});

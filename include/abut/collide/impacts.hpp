@@ -124,6 +124,15 @@ struct time_in_motion {
         return motion_filter<is_moving_edge<S>>(points_of(s, t)).are_middles_apart();
     }
     [[nodiscard]] bool sifts() const { return bounds.separation == 0; }
+    /// Whether the second stage says no, of those that the first one leaves.
+    template <class S, class U>
+        requires(!std::same_as<A, fast>)
+    ABUT_HD bool is_apart_late(const S& s, const U& t) const {
+        const auto points = points_of(s, t);
+        const std::uint32_t shared = shared_coordinates<is_moving_edge<S>>(points);
+        if (axis_of_plane<is_moving_edge<S>>(shared) >= 0 || come_together(points)) return false;
+        return motion_filter<is_moving_edge<S>>(points).search(false, shared).touch == verdict::no;
+    }
     template <class S, class U>
     ABUT_HD double time(const S& s, const U& t) const {
         return time_in_registers<A, is_moving_edge<S>>(points_of(s, t), bounds);

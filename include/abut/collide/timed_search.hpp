@@ -30,7 +30,8 @@ namespace abut::detail {
 ///   decide(s, t)        the first try: `no` of those that do not touch
 ///   time(s, t)          in registers
 ///   time_on_host(s, t)  known
-/// It may have is_apart(s, t), which costs little and is false where it does not know, and sifts(), whether it knows of any.
+/// It may have is_apart(s, t), which costs little, and is_apart_late(s, t), which knows more, both false where they do not know; and
+/// sifts(), whether they know of any.
 template <class J, class S, class U>
 concept timing_judge = requires(const J& judge, const S& s, const U& u) {
     { judge.decide(s, u) } -> std::same_as<verdict>;
@@ -202,6 +203,26 @@ struct sift_gathered {
         });
     }
 };
+template <class Judge>
+struct keep_if_near_late {
+    const Judge& judge;
+    template <class S, class U>
+    ABUT_HD bool operator()(const S& s, const U& t) const {
+        return !judge.is_apart_late(s, t);
+    }
+};
+/// Of what the first try leaves. Most of the rest meets: then all lanes of a warp compute a time.
+template <class View, class Judge>
+struct sift_late {
+    View both;
+    Judge judge;
+    const std::uint64_t* keys;
+    ABUT_CALLS_ANY
+    template <class Open>
+    ABUT_HD void operator()(std::size_t i, Open& open) const {
+        if (both.with_shapes(keys[i], keep_if_near_late<Judge>{judge})) open.push(keys[i]);
+    }
+};
 template <class View, class Judge>
 struct try_gathered {
     View both;
@@ -259,8 +280,16 @@ void time_candidates(const Policy& on, const View& view, const Judge& judge, gat
             if (left.count() <= less.size()) near = left;  // or nothing is sifted out
         }
     }
-    key_queue<Policy> open(on, std::max(near.count() / 8, std::size_t{1} << 16));
+    const bool is_sifted = less.size() > 0;
+    key_queue<Policy> open(on, std::max(near.count() / (is_sifted ? 2 : 8), std::size_t{1} << 16));
     for_each_index(on, near.count(), try_gathered<features, Judge>{both, judge, near}, open);
+    if constexpr (sifting_judge<Judge>) {
+        if (is_sifted) {
+            key_queue<Policy> late(on, std::max(open.size() / 2, std::size_t{1} << 16));
+            for_each_index(on, open.size(), sift_late<features, Judge>{both, judge, open.data()}, late);
+            open = std::move(late);
+        }
+    }
     const std::size_t n = open.size();
     const std::size_t spread = spread_of(n);
     for_each_index(on, n * spread, time_gathered<features, Judge>{both, judge, open.data(), spread}, hits);

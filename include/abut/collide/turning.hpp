@@ -221,8 +221,9 @@ consteval bool can_turn() {
     }
 }
 
-/// An answer of each entry, in the policy's memory; complete when it returns. Errors begin with name(i) of an entry.
-template <class Answer, class Policy, class IndexA, class IndexB, class Name>
+/// An answer of each entry, in the policy's memory; complete when it returns. Errors begin with name(i) of an entry. `InGroups` has
+/// a group walk each entry, as a device always does.
+template <class Answer, bool InGroups = false, class Policy, class IndexA, class IndexB, class Name>
 auto meetings_of(const Policy& on, const std::vector<moving_pair<IndexA, IndexB>>& list, const meeting_options& options,
                  const std::string& function, const Name& name) {
     check(options, function);
@@ -259,10 +260,10 @@ auto meetings_of(const Policy& on, const std::vector<moving_pair<IndexA, IndexB>
     const write_meetings<Answer, IndexA, IndexB> write{{objects_a->objects.data(), objects_b->objects.data(), objects_a->object_of.data(),
                                                         objects_b->object_of.data(), there.data(), options.tolerance},
                                                        out.data()};
-    if constexpr (host_policy<Policy>) {
-        for_each_task(on, n, write);
-    } else {
+    if constexpr (InGroups || !host_policy<Policy>) {
         for_each_group(on, n * write.members, write);
+    } else {
+        for_each_task(on, n, write);
     }
     synchronize(on);
     return out;
