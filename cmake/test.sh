@@ -169,9 +169,9 @@ batch='-DCMAKE_UNITY_BUILD_BATCH_SIZE=6'
 together="-DCMAKE_UNITY_BUILD=$quick $batch"
 # What takes long to run is built by g++ with -Og, where clang's -O0 would cost more than it saves.
 by_gcc='arithmetic shape predicate narrow distributed cuda'
-long_in_collide=' bodies contacts distance extremes hulls impacts inside line_bundles many_within memory meshes nearest pair_rules'
-long_in_collide="$long_in_collide posed query raycast raycast_solids revolution self_pairs validate winding_exact"
-long_in_collide="$long_in_collide winding_number within "
+long_in_collide=' bodies contacts distance extremes hulls impacts inside line_bundles many_within memory meshes nearest on_a_device'
+long_in_collide="$long_in_collide pair_rules posed query raycast raycast_solids revolution row_each self_pairs solid_relation"
+long_in_collide="$long_in_collide solids_by_rule spans validate winding_exact winding_number within "
 elsewhere_gcc='' elsewhere_clang=''
 if [ $share = yes ]; then
     elsewhere_gcc='execution;index;traverse;devices;io'

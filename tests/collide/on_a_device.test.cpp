@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What devices do in another way than hosts, on a host: sweeps in stages, and motions by groups of threads. The answers are those of
-// the way of hosts, which have tests of their own.
+// What devices do in another way than hosts, on a host: sweeps in stages, and motions by groups of threads. The answers are
+// those of the way of hosts, which have tests of their own.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -29,8 +29,9 @@ auto sweep_in_stages(const Index& index, const std::vector<swept<S>>& movers) {
     const auto frame = frame_of(x, length_unit<T>{});
     const auto shapes = x.shapes();
     const auto rows = set.view();
-    using along = walk_along_ways<A, std::remove_const_t<decltype(walk)>, std::remove_const_t<decltype(frame)>, std::remove_const_t<decltype(shapes)>,
-                                  std::remove_const_t<decltype(rows)>, all_shapes_wanted>;
+    using along =
+        walk_along_ways<A, std::remove_const_t<decltype(walk)>, std::remove_const_t<decltype(frame)>,
+                        std::remove_const_t<decltype(shapes)>, std::remove_const_t<decltype(rows)>, all_shapes_wanted>;
     static_assert(along::can_gather);
     using best_type = execution::best_of_each<host_space>;
     best_type best(on, movers.size(), 1.0);
@@ -93,8 +94,8 @@ TEMPLATE_TEST_CASE("sweep in stages: what is met first of a torus", "", float, d
     check_stages(posed(index, pose), capsules, 1);
 }
 
-// All faces of a fan meet at its tip, and all are touched there at one time. There are more of them than a row has room for in any
-// stage.
+// All faces of a fan meet at its tip, and all are touched there at one time. There are more of them than a row has room for
+// in any stage.
 TEMPLATE_TEST_CASE("sweep in stages: more ties than there is room for", "", float, double) {
     using T = TestType;
     const serial on;
@@ -107,7 +108,8 @@ TEMPLATE_TEST_CASE("sweep in stages: more ties than there is room for", "", floa
             faces.push_back({0, 1 + i, 1 + (i + 1) % count});
         }
         const auto index = make_bvh(on, mesh<T>(vertices, faces));
-        std::vector<swept<sphere<T>>> balls{{{{0, 0, 3}, 1}, {0, 0, -4}}, {{{0, 0, T(0.5)}, 1}, {0, 0, -1}}, {{{0, 0, 3}, 1}, {0, 0, 4}}};
+        std::vector<swept<sphere<T>>> balls{
+            {{{0, 0, 3}, 1}, {0, 0, -4}}, {{{0, 0, T(0.5)}, 1}, {0, 0, -1}}, {{{0, 0, 3}, 1}, {0, 0, 4}}};
         for (int i = 0; i < 20; ++i) balls.push_back({{{T(0.01) * static_cast<T>(i), 0, 3}, T(0.25)}, {0, 0, -4}});
         check_stages(index, balls, 20);
     }

@@ -341,9 +341,8 @@ public:
             motion_counts* const counts = counts_.data();
             const auto vertices = queue(open_.data(), capacity_).make_sink(&counts->left_of_vertices);
             const auto edges = from_end(open_.data(), capacity_).make_sink(&counts->left_of_edges);
-            for_each_indirect(on_, &counts->tries,
-                              sift_in_stream<features, Judge, std::remove_const_t<decltype(vertices)>, std::remove_const_t<decltype(edges)>>{
-                                  vertices_.view(both_), judge, gathered(), vertices, edges});
+            using sift = sift_in_stream<features, Judge, std::remove_const_t<decltype(vertices)>, std::remove_const_t<decltype(edges)>>;
+            for_each_indirect(on_, &counts->tries, sift{vertices_.view(both_), judge, gathered(), vertices, edges});
             for_each_index(on_, 1, end_sifting{counts});
             std::swap(near_, open_);
         }

@@ -179,7 +179,8 @@ struct features_on_way {
     ABUT_CALLS_ANY
     template <class F>
     ABUT_INLINE ABUT_HD auto with_edges(std::uint64_t k, const F& f) const {
-        return f(edge_at(a, corners_at(both.a.edges.t0.edges, both.key.a(k))), edge_at(b, corners_at(both.b.edges.t0.edges, both.key.b(k))));
+        return f(edge_at(a, corners_at(both.a.edges.t0.edges, both.key.a(k))),
+                 edge_at(b, corners_at(both.b.edges.t0.edges, both.key.b(k))));
     }
     ABUT_CALLS_ANY
     template <class F>
@@ -187,7 +188,8 @@ struct features_on_way {
         const bool vertex_first = both.key.kind(k) == feature_pair::vertex_face;
         const std::uint32_t i = both.key.a(k), j = both.key.b(k);
         const vertex_on_way<T> p = vertex_first ? a[i] : b[j];
-        const std::uint32_t* const corner = vertex_first ? corners_at(both.b.faces.t0.faces, j) : corners_at(both.a.faces.t0.faces, i);
+        const std::uint32_t* const corner =
+            vertex_first ? corners_at(both.b.faces.t0.faces, j) : corners_at(both.a.faces.t0.faces, i);
         const vertex_on_way<T>* const of = vertex_first ? b : a;
         const vertex_on_way<T> x = of[corner[0]], y = of[corner[1]], z = of[corner[2]];
         return f(motion<vec3<T>>{p.t0(), p.t1()}, motion<triangle<T>>{{x.t0(), y.t0(), z.t0()}, {x.t1(), y.t1(), z.t1()}});

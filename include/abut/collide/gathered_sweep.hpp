@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// sweep on a device, in stages, each with full warps. A walk that searches would keep the search's memory beside its own, and its
-// lanes would come to shapes one at a time.
+// sweep on a device, in stages, each with full warps. A walk that searches would keep the search's memory beside its own,
+// and its lanes would come to shapes one at a time.
 //
-//   1. Each row walks. A few directions (narrow/plain_sweep.hpp) pass most shapes, and tell a time by which one is touched. What is
-//      left is gathered: the shapes that may be touched by that time.
+//   1. Each row walks. A few directions (narrow/plain_sweep.hpp) pass most shapes, and tell a time by which one is touched.
+//      What is left is gathered: the shapes that may be touched by that time.
 //   2. Each of these is searched in doubles (narrow/sweep_search.hpp).
-//   3. Each row takes the first of its own. Where several may be that, their times are rounded, and the row takes the first then.
+//   3. Each row takes the first of its own. Where several may be that, their times are rounded, and it takes the first then.
 //
-// Rows that gather more than a few walk again, some at a time, with more room. What has no room then is walked once more, by rows
-// that search as they go.
+// Rows that gather more than a few walk again, some at a time, with more room. What has no room then is walked once more,
+// by rows that search as they go.
 
 #include <algorithm>
 #include <concepts>
@@ -66,7 +66,8 @@ struct gathering_look {
             has_room = false;
             return best.offer(0);  // which ends the walk soon
         }
-        shapes[count++] = {static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(id), static_cast<float>(time.first * (1 - 0x1p-22))};
+        const auto first = static_cast<float>(time.first * (1 - 0x1p-22));
+        shapes[count++] = {static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(id), first};
     }
     ABUT_HD void forget_later_than(double bound) {
         std::uint32_t kept = 0;
@@ -158,8 +159,8 @@ struct round_gathered {
         times[k] = {time, time};
     }
 };
-/// Each row takes the first of what it has gathered. Where that needs times to be rounded, they are handed on and so is the row, and
-/// so are rows that found no room.
+/// Each row takes the first of what it has gathered. Where that needs times to be rounded, they are handed on and so is the
+/// row, and so are rows that found no room.
 template <class All, class Sink>
 struct choose_gathered {
     using T = scalar_type_of<typename All::line_type>;
@@ -176,7 +177,8 @@ struct choose_gathered {
         if (mine.count == gathered_row::no_room) return late.push(row);
         const std::uint64_t end = mine.first + mine.count;
         double last = infinity<double>;
-        for (std::uint64_t k = mine.first; k < end; ++k) last = times[k].first >= 0 && times[k].last < last ? times[k].last : last;
+        for (std::uint64_t k = mine.first; k < end; ++k)
+            last = times[k].first >= 0 && times[k].last < last ? times[k].last : last;
         const auto counts = [&](std::uint64_t k) { return times[k].first >= 0 && times[k].first <= last; };
         execution::least_value first{};
         std::uint32_t count = 0;
@@ -219,7 +221,8 @@ struct search_while_walking {
 template <class Policy, class All>
 inline constexpr bool gathers_first = !host_policy<Policy> && All::can_gather;
 
-/// What for_each_ordered(on, n, each, best) does, in stages. There is room for four shapes of each row, and for 2^16 at least.
+/// What for_each_ordered(on, n, each, best) does, in stages. There is room for four shapes of each row, and for 2^16 at
+/// least.
 template <class Policy, class All, class Best>
 class staged_sweep {
     using sink_type = typename Best::sink;
@@ -227,8 +230,13 @@ class staged_sweep {
 
 public:
     staged_sweep(const Policy& policy, std::size_t n, const from_each<All>& of_each, Best& into)
-        : on_(policy), each_(of_each), sink_(into.make_sink(0)), room_(std::max(4 * n, std::size_t{1} << 16)), rows_(policy, n),
-          shapes_(policy, room_), times_(policy, room_) {
+        : on_(policy),
+          each_(of_each),
+          sink_(into.make_sink(0)),
+          room_(std::max(4 * n, std::size_t{1} << 16)),
+          rows_(policy, n),
+          shapes_(policy, room_),
+          times_(policy, room_) {
         execution::buffer_of<Policy, std::uint64_t> taken(on_, 1);
         fill(on_, taken.data(), 1, std::uint64_t{0});
         execution::least_kept_by_walk until{1.0};
@@ -258,7 +266,8 @@ private:
         if (ties.size() == 0) return;
         for_each_index(on_, open.size(), round_gathered<All>{each_.all, gathered(), times_.data(), open.data()});
         queue none(on_, 0);
-        for_each_index(on_, ties.size(), choose{gathered(), times_.data(), ties.data(), each_.all.in_scalars, sink_}, none, none, none);
+        for_each_index(on_, ties.size(), choose{gathered(), times_.data(), ties.data(), each_.all.in_scalars, sink_}, none,
+                       none, none);
     }
     void walk_again(const std::uint64_t* some, std::size_t n, queue& late) {
         execution::least_kept_by_walk until{1.0};

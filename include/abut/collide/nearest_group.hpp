@@ -42,9 +42,8 @@ struct corner_near {
 /// shared out, and tested once more by what the limits are by then. What is left is measured, a pair for each member.
 ///
 /// Some groups lie around what is as near to them on all sides, such as the middle of a tube, and find long lists. Their
-/// points are left for a second run, in which each looks by itself, with all members of a group. Where all points of a group
-/// are close to a shape each, next to its size, they have hardly more to look at than that. They are left for walks of single
-/// points.
+/// points are left for a second run, in which each looks by itself, with all members of a group. Groups that are left for walks of
+/// single points (shape_near_each) are passed over.
 template <bvh_layout Tree, class Frame, shape_view Shapes, shape_view Points, class Judge>
 struct nearest_to_group {
     using T = typename Points::scalar_type;
@@ -54,8 +53,6 @@ struct nearest_to_group {
     using seen_shape = seen_shape_of<shape_type>;
     /// most_lists: full ones, after which a group is left for the second run.
     static constexpr unsigned members = execution::subgroup_size, room = 2 * members, most_lists = 24;
-    /// A point is close to a shape whose longest edge has at least this part of the square of the way to a corner of it.
-    static constexpr T close = T(0x1p-4);
     struct waiting_pair {
         T at_least;
         std::uint32_t id, point;
@@ -87,15 +84,16 @@ struct nearest_to_group {
     const std::uint32_t* order;
     std::size_t count;
     execution::least_value* out;
-    /// Numbers of groups that are left for the second run, from its begin on, and of those left for walks of single points,
-    /// before its end; null in the second run.
-    std::uint32_t *left, *left_end;
-    std::uint32_t* counts;       ///< how many these are
-    const std::uint32_t* alone;  ///< the groups of the second run, and null in the first
+    const std::uint32_t* near;      ///< a shape near each point
+    const std::uint8_t* is_single;  ///< whether a group is left for walks of single points
+    std::uint32_t* left;            ///< numbers of groups that are left for the second run; null in that
+    std::uint32_t* count_left;      ///< how many these are
+    const std::uint32_t* alone;     ///< the groups of the second run, and null in the first
 
     ABUT_HD void operator()(const group& all) const {
         shared& memory = all.shared;
         const std::size_t number = all.first / members;
+        if (alone == nullptr && all.first < count && is_single[number] != 0) return;
         const std::size_t first = alone == nullptr ? all.first : std::size_t{members} * alone[number / members] + number % members;
         if (first >= count) return;
         const unsigned there = alone != nullptr ? 1 : static_cast<unsigned>(count - first < members ? count - first : members);
@@ -136,27 +134,17 @@ struct nearest_to_group {
             });
         };
         look_past(walk.shape_near(frame.ball_around(middle).center));
-        const T are_close = all.least([&](unsigned k) {
+        all.each([&](unsigned k) {
             const vec3<T> minus_twice = T(-2) * (memory.world[k] - middle);
-            T limit = memory.corner.at_most + dot(minus_twice, memory.corner.at), is_close = 0;
+            T limit = memory.corner.at_most + dot(minus_twice, memory.corner.at);
             if (left != nullptr) {
-                const auto shape = shapes[walk.shape_near(frame.ball_around(memory.world[k]).center)];
+                const auto shape = shapes[near[first + (k < there ? k : 0)]];
                 const corner_near<T> own(seen_corners_of<shape_type>(shape, middle), memory.world[k] - middle);
                 const seen_corner<T> corner(own.at, own.size, far_squared);
                 limit = least(corner.at_most + dot(minus_twice, corner.at), limit);
-                is_close = own.square * close <= own.longest ? T(1) : T(0);
             }
             memory.points[k] = {minus_twice, least(limit, infinity<T>)};  // not NaN
             memory.mine[k] = 0;
-            return is_close;
-        });
-        if (are_close > 0) {
-            all.each([&](unsigned k) {
-                if (k == 0) *(left_end - 1 - execution::atomic_add(counts + 1, 1u)) = static_cast<std::uint32_t>(number);
-            });
-            return;
-        }
-        all.each([&](unsigned k) {
             if (k < there) out[first + k] = {};
         });
 
@@ -279,7 +267,7 @@ struct nearest_to_group {
                 look_past_nearest_of_list();
             } else {
                 all.each([&](unsigned k) {
-                    if (k == 0) left[execution::atomic_add(counts, 1u)] = static_cast<std::uint32_t>(number);
+                    if (k == 0) left[execution::atomic_add(count_left, 1u)] = static_cast<std::uint32_t>(number);
                 });
             }
             listed = 0;
@@ -295,6 +283,44 @@ private:
         };
         return {{least_of(&vec3<T>::x, 1), least_of(&vec3<T>::y, 1), least_of(&vec3<T>::z, 1)},
                 {least_of(&vec3<T>::x, -1), least_of(&vec3<T>::y, -1), least_of(&vec3<T>::z, -1)}};
+    }
+};
+
+/// A shape near each point. Where all points of a group are close to theirs, next to its size, they have hardly more to look at than
+/// that. They are left for walks of single points. A kernel of its own, since it wants many threads, and a group much memory.
+template <bvh_layout Tree, class Frame, shape_view Shapes, shape_view Points>
+struct shape_near_each {
+    using T = typename Points::scalar_type;
+    using shape_type = typename Shapes::shape_type;
+    static constexpr unsigned members = execution::subgroup_size;
+    /// A point is close to a shape whose longest edge has at least this part of the square of the way to a corner of it.
+    static constexpr T close = T(0x1p-4);
+    struct shared {};
+    group_tree_walk<Tree> walk;
+    Frame frame;
+    Shapes shapes;
+    Points points;
+    const std::uint32_t* order;
+    std::size_t count;
+    std::uint32_t* near;
+    std::uint8_t* is_single;
+    std::uint32_t *single_end, *count_single;  ///< the numbers of these groups, before an end, and how many these are
+
+    ABUT_HD void operator()(const execution::group<shared, members>& all) const {
+        const std::size_t first = all.first, number = first / members;
+        if (first >= count) return;
+        const T are_close = all.least([&](unsigned k) {
+            const std::size_t i = first + k < count ? first + k : first;
+            const vec3<T> p = points[order == nullptr ? i : order[i]];
+            near[i] = walk.shape_near(frame.ball_around(p).center);
+            const corner_near<T> own(seen_corners_of<shape_type>(shapes[near[i]], p), {0, 0, 0});
+            return own.square * close <= own.longest ? T(1) : T(0);
+        });
+        all.each([&](unsigned k) {
+            if (k != 0) return;
+            is_single[number] = are_close > 0 ? 1 : 0;
+            if (are_close > 0) *(single_end - 1 - execution::atomic_add(count_single, 1u)) = static_cast<std::uint32_t>(number);
+        });
     }
 };
 
@@ -354,10 +380,15 @@ auto nearest_in_groups(const Policy& on, const Tree& tree, const Frame& frame, c
     constexpr std::size_t members = group_type::members;
     const std::size_t n = points.size(), groups = n / members + 1;
     execution::buffer_of<Policy, execution::least_value> found(on, n);
-    execution::buffer_of<Policy, std::uint32_t> numbers(on, groups + 2);
-    std::uint32_t *const left = numbers.data() + 2, *const end = left + groups;
+    execution::buffer_of<Policy, std::uint32_t> numbers(on, groups + 2 + n);
+    execution::buffer_of<Policy, std::uint8_t> is_single(on, groups);
+    std::uint32_t *const left = numbers.data() + 2, *const end = left + groups, *const near = end;
     fill(on, numbers.data(), 2, 0u);
-    group_type look{{tree}, frame, shapes, points, judge, order, n, found.data(), left, end, numbers.data(), nullptr};
+    const shape_near_each<Tree, Frame, Shapes, Points> begin{
+        {tree}, frame, shapes, points, order, n, near, is_single.data(), end, numbers.data() + 1};
+    for_each_group(on, n, begin);
+    group_type look{
+        {tree}, frame, shapes, points, judge, order, n, found.data(), near, is_single.data(), left, numbers.data(), nullptr};
     for_each_group(on, n, look);
     std::uint32_t counts[2] = {};
     download(on, numbers.data(), 2, counts);

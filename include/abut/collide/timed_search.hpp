@@ -4,10 +4,10 @@
 // The search for pairs of features that touch, with their times. A judge's first try leaves few pairs, and of these the time
 // says whether they touch at all: so nothing is decided twice.
 //
-// A thread of the host does both where a pair is found. On a device there are stages, each with full warps: candidates
-// are gathered, as many as find room; a look that costs little sifts out most of them; the first try reads the rest; and what it
-// leaves is timed. A walk that does all of it would hold the registers of all. What a device cannot time it leaves to the host, which comes when all is found
-// (impacts.hpp).
+// A thread of the host does both where a pair is found. On a device there are stages, each with full warps: candidates are
+// gathered, as many as find room; a look that costs little sifts out most of them; the first try reads the rest, and the second
+// one what that leaves; and what is left then is timed. A walk that does all of it would hold the registers of all. What a device
+// cannot time it leaves to the host, which comes when all is found (impacts.hpp).
 
 #include <algorithm>
 #include <concepts>
@@ -122,7 +122,8 @@ struct gathered_features {
 /// Of one room, from its beginning and from its end.
 template <class Room, class Vertices, class Edges>
 gathered_features in_room(const Room& room, const Vertices& vertices, const Edges& edges) {
-    return {room.data(), room.data() + room.size(), static_cast<std::size_t>(vertices.pushed()), static_cast<std::size_t>(edges.pushed())};
+    return {room.data(), room.data() + room.size(), static_cast<std::size_t>(vertices.pushed()),
+            static_cast<std::size_t>(edges.pushed())};
 }
 template <class Queue>
 gathered_features in_two_queues(const Queue& vertices, const Queue& edges) {

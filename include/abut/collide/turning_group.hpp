@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Motions of a list on a device, where a warp walks each entry (turning.hpp has the entry, and what one thread does with it). The
-// members of a group open some pairs of nodes at a time. Pairs of shapes wait until each member can search one. So neither
-// waits for the longest of 32 other entries. Pairs are not taken in the order of their times, which changes no answer: a pair's time
-// is its own, and the first of all is taken.
+// Motions of a list on a device, where a warp walks each entry (turning.hpp has the entry, and what one thread does with
+// it). The members of a group open some pairs of nodes at a time. Pairs of shapes wait until each member can search one. So
+// neither waits for the longest of 32 other entries. Pairs are not taken in the order of their times, which changes no
+// answer: a pair's time is its own, and the first of all is taken.
 
 #include <cstddef>
 #include <cstdint>
@@ -44,9 +44,16 @@ class turning_group {
     static constexpr unsigned members = room::members, width = static_cast<unsigned>(Walk::width);
 
 public:
-    ABUT_HD turning_group(const Group& group, room& shared, const Walk& walk, const turning_pair& both, const turning_bounds& bounds,
-                          double far, const Search& search, const Ended& has_ended)
-        : group_(group), shared_(shared), walk_(walk), both_(both), bounds_(bounds), far_(far), search_(search), has_ended_(has_ended) {}
+    ABUT_HD turning_group(const Group& group, room& shared, const Walk& walk, const turning_pair& both,
+                          const turning_bounds& bounds, double far, const Search& search, const Ended& has_ended)
+        : group_(group),
+          shared_(shared),
+          walk_(walk),
+          both_(both),
+          bounds_(bounds),
+          far_(far),
+          search_(search),
+          has_ended_(has_ended) {}
 
     ABUT_CALLS_ANY
     ABUT_HD void run(float begin) {
@@ -121,9 +128,8 @@ private:
         const auto key_of = [&](unsigned k) {
             return static_cast<std::uint64_t>(shared_.found[first + k].a) << 32 | shared_.found[first + k].b;
         };
-        const std::uint64_t key = group_.least([&](unsigned k) {
-            return k < count && times[k].time == time ? key_of(k) : ~std::uint64_t{0};
-        });
+        const std::uint64_t key =
+            group_.least([&](unsigned k) { return k < count && times[k].time == time ? key_of(k) : ~std::uint64_t{0}; });
         group_.each([&](unsigned k) {
             if (k >= count || times[k].time != time || key_of(k) != key) return;
             shared_.best.offer(times[k], shared_.found[first + k].a, shared_.found[first + k].b);
