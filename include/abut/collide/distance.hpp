@@ -329,7 +329,8 @@ void walk_two_trees(const Policy& on, const Pairing& pairing, Walk walk, const R
             return two_trees<Walk, Reach, view, std::remove_cvref_t<decltype(part)>>{
                 walk, reach, both, seeds_below<Walk>(walk, level), part};
         };
-        const shared_nearest<Policy> found(on, 1, best.bound(), below(4, whole_search{}), below(is_shared ? 6 : 5, pairing.part));
+        const shared_nearest<Policy> found(on, 1, best.bound(), below(4, whole_search{}), below(is_shared ? 6 : 5, pairing.part),
+                                           shared_nearest<Policy>::enough_for_one);
         best.offer(found.of_one());
     }
 }

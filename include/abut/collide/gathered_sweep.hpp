@@ -19,7 +19,7 @@
 
 #include <abut/arithmetic/limits.hpp>
 #include <abut/collide/search.hpp>
-#include <abut/collide/timed_search.hpp>
+#include <abut/collide/shares.hpp>
 #include <abut/execution/atomic.hpp>
 #include <abut/execution/buffer.hpp>
 #include <abut/execution/ordered.hpp>

@@ -298,7 +298,7 @@ struct begin_nearest {
 template <class Policy>
 class shared_nearest {
 public:
-    static constexpr std::size_t enough_room = std::size_t{1} << 16;
+    static constexpr std::size_t enough_room = std::size_t{1} << 16, enough_for_one = std::size_t{1} << 13;
 
     /// `first` is the scene from the seeds of which the short looks begin. Nothing is kept of more pairs than `room`.
     template <class First, class Scene>
@@ -310,7 +310,8 @@ public:
         std::uint64_t* const count = words_.data() + 2 * n;
         for_each_index(on, 3 * n, begin_nearest{n, ABUT_BIT_CAST(std::uint64_t, bound), words_.data(), words_.data() + n, count, way.data()});
         const nearest_so_far known{words_.data(), way.data()};
-        for_each_index(on, first.seeds(), look_once<First>{first, known});
+        const std::size_t spread = spread_of(first.seeds());
+        for_each_index(on, first.seeds() * spread, by_one_lane<look_once<First>>{{first, known}, spread});
         const open_near_pairs<Scene> open{scene, known};
         for_each_descendant(on, open, measure_near_pairs<Scene>{scene, known, kept.data(), count, room});
         const choose_least_key<Scene> choose{scene, known, words_.data() + n};

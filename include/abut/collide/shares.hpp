@@ -108,4 +108,22 @@ struct tile_from : Tile {
     }
 };
 
+/// Lanes of one warp that go different ways wait for each other: of few pieces of work each is taken by one lane in so many.
+template <class N>
+ABUT_HD N spread_of(N pieces) {
+    N spread = 1;
+    while (spread < 32 && pieces * spread <= N{1} << 15) spread *= 2;
+    return spread;
+}
+/// f(i) by one lane in `spread`.
+template <class F>
+struct by_one_lane {
+    F f;
+    std::size_t spread;
+    ABUT_CALLS_ANY
+    ABUT_HD void operator()(std::size_t i) const {
+        if (i % spread == 0) f(i / spread);
+    }
+};
+
 }  // namespace abut::detail

@@ -19,6 +19,7 @@
 #include <abut/collide/features.hpp>
 #include <abut/collide/judge.hpp>
 #include <abut/collide/search.hpp>
+#include <abut/collide/shares.hpp>
 #include <abut/execution/buffer.hpp>
 #include <abut/execution/work_queue.hpp>
 #include <abut/narrow/time_of_impact.hpp>
@@ -238,13 +239,6 @@ struct try_gathered {
         });
     }
 };
-/// Lanes of one warp that follow different roots wait for each other: few pairs are spread over many warps.
-template <class N>
-ABUT_HD N spread_of(N pairs) {
-    N spread = 1;
-    while (spread < 32 && pairs * spread <= N{1} << 15) spread *= 2;
-    return spread;
-}
 /// A lane in `spread` times one.
 template <class View, class Judge>
 struct time_gathered {
