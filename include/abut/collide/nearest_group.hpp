@@ -36,14 +36,32 @@ struct corner_near {
     }
 };
 
+/// Groups that are left for walks of single points.
+struct single_groups {
+    std::uint8_t* is;               ///< whether a group is, of each
+    std::uint32_t *end, *how_many;  ///< their numbers, before an end, and how many these are
+
+    /// Of a group of `count` points. All are where nearly all are.
+    [[nodiscard]] ABUT_HD bool has(std::size_t number, std::size_t count) const {
+        const std::size_t groups = (count + execution::subgroup_size - 1) / execution::subgroup_size;
+        return is[number] != 0 || std::size_t{execution::atomic_load(how_many)} * 16 > groups * 15;
+    }
+    /// Once.
+    ABUT_HD void add(std::size_t number) const {
+        if (is[number] == 2) return;
+        is[number] = 2;
+        *(end - 1 - execution::atomic_add(how_many, 1u)) = static_cast<std::uint32_t>(number);
+    }
+};
+
 /// As many points as a subgroup has members look for their nearest shapes. What their box and a corner near its middle leave
 /// over, a node or a shape for each member, comes to a list, which the members share. Each member tests its point with each
 /// shape of the list, by bounds that take little (shape/corners.hpp), and so its limit shrinks. The pairs that are left are
 /// shared out, and tested once more by what the limits are by then. What is left is measured, a pair for each member.
 ///
 /// Some groups lie around what is as near to them on all sides, such as the middle of a tube, and find long lists. Their
-/// points are left for a second run, in which each looks by itself, with all members of a group. Groups that are left for walks of
-/// single points (shape_near_each) are passed over.
+/// points are left for a second run, in which each looks by itself, with all members of a group. Groups that are left for walks
+/// of single points are passed over: those of shape_near_each, and the others where few are left, which nobody else would wait for.
 template <bvh_layout Tree, class Frame, shape_view Shapes, shape_view Points, class Judge>
 struct nearest_to_group {
     using T = typename Points::scalar_type;
@@ -84,16 +102,21 @@ struct nearest_to_group {
     const std::uint32_t* order;
     std::size_t count;
     execution::least_value* out;
-    const std::uint32_t* near;      ///< a shape near each point
-    const std::uint8_t* is_single;  ///< whether a group is left for walks of single points
-    std::uint32_t* left;            ///< numbers of groups that are left for the second run; null in that
-    std::uint32_t* count_left;      ///< how many these are
-    const std::uint32_t* alone;     ///< the groups of the second run, and null in the first
+    const std::uint32_t* near;   ///< a shape near each point
+    single_groups single;        ///< groups that are left for walks of single points
+    std::uint32_t* left;         ///< numbers of groups that are left for the second run; null in that
+    std::uint32_t* count_left;   ///< how many these are
+    const std::uint32_t* alone;  ///< the groups of the second run, and null in the first
 
     ABUT_HD void operator()(const group& all) const {
         shared& memory = all.shared;
         const std::size_t number = all.first / members;
-        if (alone == nullptr && all.first < count && is_single[number] != 0) return;
+        if (alone == nullptr && all.first < count && single.has(number, count)) {
+            all.each([&](unsigned k) {
+                if (k == 0) single.add(number);
+            });
+            return;
+        }
         const std::size_t first = alone == nullptr ? all.first : std::size_t{members} * alone[number / members] + number % members;
         if (first >= count) return;
         const unsigned there = alone != nullptr ? 1 : static_cast<unsigned>(count - first < members ? count - first : members);
@@ -286,8 +309,9 @@ private:
     }
 };
 
-/// A shape near each point. Where all points of a group are close to theirs, next to its size, they have hardly more to look at than
-/// that. They are left for walks of single points. A kernel of its own, since it wants many threads, and a group much memory.
+/// A shape near each point. Where most points of a group are close to theirs, next to its size, they have hardly more to look at
+/// than that, and the group is left for walks of single points. (Most, since a tree of `ploc` leads one point in ten astray.) A
+/// kernel of its own, so that all know how many groups are left.
 template <bvh_layout Tree, class Frame, shape_view Shapes, shape_view Points>
 struct shape_near_each {
     using T = typename Points::scalar_type;
@@ -295,6 +319,7 @@ struct shape_near_each {
     static constexpr unsigned members = execution::subgroup_size;
     /// A point is close to a shape whose longest edge has at least this part of the square of the way to a corner of it.
     static constexpr T close = T(0x1p-4);
+    static constexpr unsigned most_of_them = members / 4 * 3;
     struct shared {};
     group_tree_walk<Tree> walk;
     Frame frame;
@@ -303,23 +328,24 @@ struct shape_near_each {
     const std::uint32_t* order;
     std::size_t count;
     std::uint32_t* near;
-    std::uint8_t* is_single;
-    std::uint32_t *single_end, *count_single;  ///< the numbers of these groups, before an end, and how many these are
+    single_groups single;
 
     ABUT_HD void operator()(const execution::group<shared, members>& all) const {
         const std::size_t first = all.first, number = first / members;
         if (first >= count) return;
-        const T are_close = all.least([&](unsigned k) {
+        unsigned are_close = 0;
+        all.each([&](unsigned k) {
             const std::size_t i = first + k < count ? first + k : first;
             const vec3<T> p = points[order == nullptr ? i : order[i]];
-            near[i] = walk.shape_near(frame.ball_around(p).center);
-            const corner_near<T> own(seen_corners_of<shape_type>(shapes[near[i]], p), {0, 0, 0});
-            return own.square * close <= own.longest ? T(1) : T(0);
+            const std::uint32_t id = walk.shape_near(frame.ball_around(p).center);
+            if (first + k < count) near[i] = id;
+            const corner_near<T> own(seen_corners_of<shape_type>(shapes[id], p), {0, 0, 0});
+            all.append(are_close, own.square * close <= own.longest, [](unsigned) {});
         });
         all.each([&](unsigned k) {
             if (k != 0) return;
-            is_single[number] = are_close > 0 ? 1 : 0;
-            if (are_close > 0) *(single_end - 1 - execution::atomic_add(count_single, 1u)) = static_cast<std::uint32_t>(number);
+            single.is[number] = 0;
+            if (are_close >= most_of_them) single.add(number);
         });
     }
 };
@@ -384,11 +410,9 @@ auto nearest_in_groups(const Policy& on, const Tree& tree, const Frame& frame, c
     execution::buffer_of<Policy, std::uint8_t> is_single(on, groups);
     std::uint32_t *const left = numbers.data() + 2, *const end = left + groups, *const near = end;
     fill(on, numbers.data(), 2, 0u);
-    const shape_near_each<Tree, Frame, Shapes, Points> begin{
-        {tree}, frame, shapes, points, order, n, near, is_single.data(), end, numbers.data() + 1};
-    for_each_group(on, n, begin);
-    group_type look{
-        {tree}, frame, shapes, points, judge, order, n, found.data(), near, is_single.data(), left, numbers.data(), nullptr};
+    const single_groups singles{is_single.data(), end, numbers.data() + 1};
+    for_each_group(on, n, shape_near_each<Tree, Frame, Shapes, Points>{{tree}, frame, shapes, points, order, n, near, singles});
+    group_type look{{tree}, frame, shapes, points, judge, order, n, found.data(), near, singles, left, numbers.data(), nullptr};
     for_each_group(on, n, look);
     std::uint32_t counts[2] = {};
     download(on, numbers.data(), 2, counts);
