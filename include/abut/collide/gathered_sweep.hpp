@@ -66,7 +66,8 @@ struct gathering_look {
             has_room = false;
             return best.offer(0);  // which ends the walk soon
         }
-        const auto first = static_cast<float>(time.first * (1 - 0x1p-22));
+        // Small floats are rounded by more than a share of themselves.
+        const float first = time.first > 0x1p-100 ? static_cast<float>(time.first * (1 - 0x1p-22)) : 0.0f;
         shapes[count++] = {static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(id), first};
     }
     ABUT_HD void forget_later_than(double bound) {
