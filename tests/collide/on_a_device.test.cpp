@@ -115,6 +115,45 @@ TEMPLATE_TEST_CASE("sweep in stages: more ties than there is room for", "", floa
     }
 }
 
+// Points that are close to faces look alone, the others in groups, unless few of these are left.
+TEMPLATE_TEST_CASE("nearest in groups: close to a torus, far from it, and nearly all close", "", float, double) {
+    using namespace detail;
+    using T = TestType;
+    const serial on;
+    const test::torus<T> surface(48, 24, 2, 1);
+    const auto tree = make_bvh(on, mesh<T>(surface.vertices, surface.faces));
+    const auto ask = [&](const auto& index, std::size_t one_in) {
+        std::vector<vec3<T>> points;
+        for (std::uint64_t i = 0; i < 2000; ++i) {
+            test::uniform random(test::sample_seed + i);
+            const auto far = random.point<T>(-4, 4), off = random.point<T>(-0.01, 0.01);
+            // Groups are of neighbours.
+            points.push_back(i / 32 % one_in == 0 ? far : surface.vertices[i * 7 % surface.vertices.size()] + off);
+        }
+        const abut::points<T> set(points);
+        const auto expected = to_host(nearest(on, index, set));
+        const auto x = make_operand(on, index, "test");
+        const length_unit<T> unit{};
+        const auto walk = ordered_walk_of(x);
+        const auto frame = frame_of(x, unit);
+        const auto there = x.shapes();
+        const auto from = set.view();
+        const measure_distance<T> judge{unit};
+        const walk_from_points<std::remove_const_t<decltype(walk)>, std::remove_const_t<decltype(frame)>,
+                               std::remove_const_t<decltype(there)>, std::remove_const_t<decltype(from)>,
+                               measure_distance<T>, all_shapes_wanted>
+            by_itself{walk, frame, there, from, judge, nullptr, {}};
+        const auto found = nearest_in_groups(on, walk.tree, frame, there, from, judge, nullptr, by_itself);
+        std::size_t wrong = 0;
+        for (std::size_t i = 0; i < points.size(); ++i) wrong += found.data()[i].key != expected[i].id;
+        CHECK(wrong == 0);
+    };
+    for (const std::size_t one_in : {1u, 3u, 20u, 100000u}) {
+        ask(tree, one_in);
+        ask(posed(tree, some_pose<T>(one_in)), one_in);
+    }
+}
+
 TEST_CASE("meetings by groups of threads are those of one thread") {
     const serial on;
     const auto first = make_bvh(on, torus<float>());
